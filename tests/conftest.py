@@ -12,8 +12,8 @@ settings.register_profile("loadflow", deadline=None, derandomize=True)
 settings.register_profile("long", deadline=None, max_examples=10_000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "loadflow"))
 
-# numba, pydantic and xarray make millions of small objects: to look through them as often as Python
-# does by default takes a tenth of the time
+# numba, pydantic and xarray make millions of small objects that stay: they are looked through less
+# often than Python does by default
 gc.set_threshold(50_000, 20, 20)
 
 ROOMS = ("journal", "hard", "compare", "", "running", "wind", "shaft", "rolling", "rotor")

@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.rolling._line_law import ninth_root
+from loadflow.rolling._line_law import lever_of, ninth_root
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -105,7 +105,7 @@ def _line_sums(
     q: Array, cos: Array, sin: Array, line: Array, forces: Array
 ) -> tuple[float, float, float]:
     """Sums of F, F⁴, F^(9/2) of one kind of line contact; fills `forces`."""
-    lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
+    lever = lever_of(line)
     fixed = line[NORMAL_Z] * q[2] - line[GAP]
     x, y = line[NORMAL_R] * q[0] + lever * q[4], line[NORMAL_R] * q[1] - lever * q[3]
     stiffness = line[STIFFNESS]
@@ -138,7 +138,7 @@ def row_forces(
             total = force[j, row]
             for k in range(row * kinds, (row + 1) * kinds):
                 line, first = table[k], spans[k, 0]
-                lever = line[HEIGHT] * line[NORMAL_R] - line[RADIUS] * line[NORMAL_Z]
+                lever = lever_of(line)
                 fixed = line[NORMAL_Z] * q[2] - line[GAP]
                 x = line[NORMAL_R] * q[0] + lever * q[4]
                 y = line[NORMAL_R] * q[1] - lever * q[3]

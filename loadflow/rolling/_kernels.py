@@ -14,7 +14,7 @@ from numba import njit
 
 from loadflow.numerics import convergence
 from loadflow.numerics.linked import LINKED
-from loadflow.rolling._line_law import ninth_root
+from loadflow.rolling._line_law import lever_of, ninth_root
 from loadflow.rolling.contacts import (
     FREE,
     GAP,
@@ -147,7 +147,7 @@ def _add_lines(q, cos, sin, line, gradient, hessian):
     force and slope need only be summed with c and s.
     """
     nr, nz = line[NORMAL_R], line[NORMAL_Z]
-    lever = line[HEIGHT] * nr - line[RADIUS] * nz
+    lever = lever_of(line)
     x, y = nr * q[0] + lever * q[4], nr * q[1] - lever * q[3]
     fixed, stiffness = nz * q[2] - line[GAP], line[STIFFNESS]
     energy = f1 = fc = fs = k1 = kc = ks = kcc = kcs = 0.0

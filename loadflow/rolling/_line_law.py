@@ -9,6 +9,8 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
+from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS
+
 _GUESS = 5118843878464958409  # bits of δ^(-1/9) where those of δ are 0, put to the middle of ±3 %
 _NINTH = 477218588  # 2³²/9
 
@@ -33,3 +35,14 @@ def ninth_root(delta):
     square = root * root
     fourth = square * square
     return max(delta, 0.0) * (fourth * fourth)
+
+
+@njit(forceinline=True, nogil=True, error_model="numpy")
+def lever_of(line):
+    """Lever of a contact's normal about the centre of the bearing, m.
+
+    Nothing where both of its parts are equal but for rounding, as on a spherical raceway, which
+    tilts freely: their rounding would make a moment.
+    """
+    one, other = line[HEIGHT] * line[NORMAL_R], line[RADIUS] * line[NORMAL_Z]
+    return one - other if abs(one - other) > 1e-14 * abs(one) else 0.0

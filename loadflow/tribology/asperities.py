@@ -46,7 +46,11 @@ def film_parameter(film: Value, roughness: Value) -> Value:
     return film / roughness
 
 
-def asperity_share(parameter: Value, rate: float = 1.8, power: float = 1.2) -> Value:
+SHARE_POWER = 1.2
+"""Of the film parameter in the share of the load that asperities carry."""
+
+
+def asperity_share(parameter: Value, rate: float = 1.8, power: float = SHARE_POWER) -> Value:
     """Share exp(-B Λ^C) of the load that asperities carry, of Zhou and Hoeprich.
 
     Parameters

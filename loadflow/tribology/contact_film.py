@@ -60,6 +60,9 @@ POWER_LAWS = {
     "hamrock-printed": PowerLaw("line", 2.922, 0.470, 0.629, 0.166),
 }
 
+HEAT_POWER = 0.548
+"""Of the thermal loading in what heat of the inlet takes from a film, (5.92)."""
+
 # logarithms of the factors of Moes' four regimes of a line
 _RIGID, _SOFT = math.log(3.0), math.log(2.621)
 _RIGID_THICK, _SOFT_THICK = math.log(1.287), math.log(1.311)
@@ -242,7 +245,7 @@ def thermal_factor(loading: Value) -> Value:
     >>> round(thermal_factor(0.1), 4)
     0.9006
     """
-    return 1.0 / (1.0 + 0.39 * loading**0.548)
+    return 1.0 / (1.0 + 0.39 * loading**HEAT_POWER)
 
 
 def zhu_cheng_factor(loading: Value, pressure_ratio: Value, slide_ratio: Value = 0.0) -> Value:

@@ -25,6 +25,7 @@ from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import Mesh, build_mesh
 from loadflow.journal.film.shell_contact import ShellContact, TouchedFilm
+from loadflow.journal.film.thickening import Thickening
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -133,7 +134,7 @@ def shaped_film(
 def _choose_flow(film: DiscreteFilm, options: Film) -> None:
     """Let pressure thicken the liquid, and the flow be turbulent, where that is asked for."""
     if options.liquid.pressure_coefficient > 0.0:
-        film.thicken(options.liquid)
+        film.thickening = Thickening(options.liquid, film.edges)
     if options.turbulence is not None:
         lengths = film.radius, film.relative_clearance
         film.regime = options.turbulence.regime(*lengths, options.liquid)

@@ -17,7 +17,6 @@ from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.film.thickening import Thickening
-from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.turbulence import Regime
 
 Array = NDArray[np.float64]
@@ -96,10 +95,6 @@ class DiscreteFilm:
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
         self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
 
-    def thicken(self, liquid: Lubricant) -> None:
-        """Let the viscosity rise with pressure, as that of `liquid` does."""
-        self.thickening = Thickening(liquid, self.edges)
-
     def driving(self, pressure: Any) -> Any:
         """What drives the flow at a pressure, Pa: it, or less where that thickens the liquid."""
         return pressure if self.thickening is None else self.thickening.liquid.driving(pressure)
@@ -107,8 +102,8 @@ class DiscreteFilm:
     @property
     def edges(self) -> tuple[float, float, float]:
         """What drives the flow at the bearing ends and the line, Pa, and the fill there."""
-        own = self.thickening
-        return (self.p_edge, self.p_line, self.line_fill) if own is None else own.edges
+        plain = self.p_edge, self.p_line, self.line_fill
+        return plain if self.thickening is None else self.thickening.edges
 
     @property
     def pressures(self) -> tuple[Array, Array]:

@@ -22,6 +22,9 @@ from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 
+ELASTIC_POWER = 0.648
+"""Of G U in the rolling force of elastic films."""
+
 # Rigid cylinders and an isoviscous film that ruptures where it leaves with p' = 0 (Martin): the
 # shear of the pressure flow on each surface is this factor times √(η u Q/l).
 _MARTIN = 2.0796226
@@ -95,7 +98,7 @@ def elastic_force(
     >>> round(float(elastic_force(1e4, 0.06, 0.018, 2.0, 0.2, 2e-8, 2.3e11)), 2)
     10.01
     """
-    carry = (pressure_viscosity * viscosity * speed / radius) ** 0.648
+    carry = (pressure_viscosity * viscosity * speed / radius) ** ELASTIC_POWER
     weight = (load / (modulus * length * radius)) ** 0.246
     return 29.2 * radius / pressure_viscosity * length * carry * weight
 
@@ -138,7 +141,7 @@ def hydrodynamic_force(
     (True, True)
     """
     # both written out: a compiled caller needs one function without calls
-    carry = (pressure_viscosity * viscosity * speed / radius) ** 0.648
+    carry = (pressure_viscosity * viscosity * speed / radius) ** ELASTIC_POWER
     weight = (load / (modulus * length * radius)) ** 0.246
     elastic = 29.2 * radius / pressure_viscosity * length * carry * weight
     rigid = _MARTIN * length * np.sqrt(viscosity * speed * load / length)

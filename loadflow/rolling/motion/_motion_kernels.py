@@ -9,7 +9,10 @@ import numpy as np
 from numba import njit
 
 from loadflow.rolling.friction import rolling_resistance
+from loadflow.rolling.friction.rolling_resistance import ELASTIC_POWER
 from loadflow.tribology import asperities, contact_film, traction
+from loadflow.tribology.asperities import SHARE_POWER
+from loadflow.tribology.contact_film import HEAT_POWER
 
 _moes_line = njit(cache=True, error_model="numpy")(contact_film.moes_line_exponent)
 _thermal_factor = njit(cache=True, error_model="numpy")(contact_film.thermal_factor)
@@ -98,22 +101,22 @@ def contact(film, load, radius, u, cooled):
     g = film.pressure_viscosity * film.modulus
     us = film.viscosity * u / (film.modulus * radius)
     ws = load / (film.modulus * radius * film.length)
-    share, grows_share = film.starvation * cooled, 1.096 * (cooled - 1.0)  # 2 × 0.548
+    share, grows_share = film.starvation * cooled, 2.0 * HEAT_POWER * (cooled - 1.0)
     given = film.length, radius, u, film.viscosity, film.pressure_viscosity, film.modulus
     if film.regimes:
         ratio, grows = _moes_line(g, us, ws)
         rolling = _hydrodynamic_force(load, *given)
-        # between the powers 0.648 of the elastic film and 0.5 of the rigid one
+        # between the powers of the elastic film and of the rigid one, a half
         rigid = (rolling / _rigid_force(load, film.length, u, film.viscosity)) ** 4
-        grows_rolling = 0.648 - 0.148 * rigid
+        grows_rolling = ELASTIC_POWER - (ELASTIC_POWER - 0.5) * rigid
     else:
         ratio = film.factor * g**film.material * us**film.speed * ws**-film.load
         rolling = _elastic_force(load, *given)
-        grows, grows_rolling = film.speed, 0.648
+        grows, grows_rolling = film.speed, ELASTIC_POWER
     height = share * ratio * radius
     grows += grows_share
     rough = _asperity_share(height / film.roughness)
-    grows_rough = 1.2 * math.log(max(rough, 1e-300)) * grows
+    grows_rough = SHARE_POWER * math.log(max(rough, 1e-300)) * grows
     stress = _limiting_stress(
         pressure, film.critical_stress, film.critical_pressure, film.limiting_slope
     )
