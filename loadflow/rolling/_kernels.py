@@ -32,8 +32,8 @@ stalled = njit(cache=True, nogil=True)(convergence.stalled)
 
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics. Loops
-# that do so are inlined by force and have no cache of their own: compiled alone and as part of a
-# caller they would round differently, and a run would depend on what the cache holds.
+# that do so are inlined by force and have no way in from Python: compiled alone and as part of a
+# caller they would round differently.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 

@@ -16,7 +16,8 @@ Array = NDArray[np.float64]
 
 LANES = 16
 """Sections in a pack, whole vectors of any processor; the last pack is filled up with its last
-section, of no weight."""
+section, of no weight. (Short rows of `loadflow.numerics.lanes` are told to the compiler as vectors;
+in loops as long as these it finds them by itself.)"""
 
 # what a section is: place and form, sine and cosine of its twist, share in the mean wind
 RADIUS, CHORD, TWIST, TWIST_S, TWIST_C, WIDTH, WEIGHT = range(0, 7 * LANES, LANES)
