@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import TypedDict
 
 import numpy as np
 from pydantic import ValidationError
@@ -56,6 +57,28 @@ def _worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.
 def _largest(found: Sequence[Sizes]) -> Sizes:
     """Of all bearings, by quantity."""
     return {name: max(sizes[name] for sizes in found) for name in found[0]}
+
+
+class _Keys(TypedDict):
+    """What an effect has from the table of a scene that turns it on."""
+
+    keys: tuple[str, ...]
+    is_on: Callable[[Scene], bool]
+    switched: Callable[[Scene, bool], Scene | None]
+
+
+def _of_table(name: str) -> _Keys:
+    """Of an effect that a table of the journal turns on: it may be left out, but not made up."""
+
+    def is_on(scene: Scene) -> bool:
+        return getattr(scene.journal, name) is not None
+
+    def switched(scene: Scene, on: bool) -> Scene | None:
+        if not on:
+            return with_settings(scene, "journal", {name: None})
+        return scene if is_on(scene) else None
+
+    return {"keys": (f"journal.{name}",), "is_on": is_on, "switched": switched}
 
 
 # --- motion ----------------------------------------------------------------------------------
@@ -320,13 +343,7 @@ def _shell(at: Situation) -> Sizes:
 SHELL = Effect(
     "elastic shell",
     model="journal",
-    keys=("journal.shell",),
-    is_on=lambda scene: scene.journal.shell is not None,
-    switched=lambda scene, on: (
-        with_settings(scene, "journal", {"shell": None})
-        if not on
-        else (scene if scene.journal.shell is not None else None)
-    ),
+    **_of_table("shell"),
     indicator=_shell,
     out="no journal.shell",
     needs="a table journal.shell",
@@ -353,13 +370,7 @@ def _contact(at: Situation) -> Sizes:
 CONTACT = Effect(
     "contact of asperities",
     model="journal",
-    keys=("journal.contact",),
-    is_on=lambda scene: scene.journal.contact is not None,
-    switched=lambda scene, on: (
-        with_settings(scene, "journal", {"contact": None})
-        if not on
-        else (scene if scene.journal.contact is not None else None)
-    ),
+    **_of_table("contact"),
     indicator=_contact,
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
@@ -418,13 +429,7 @@ def _supply(at: Situation) -> Sizes:
 SUPPLY = Effect(
     "supply of the film",
     model="journal",
-    keys=("journal.supply",),
-    is_on=lambda scene: scene.journal.supply is not None,
-    switched=lambda scene, on: (
-        with_settings(scene, "journal", {"supply": None})
-        if not on
-        else (scene if scene.journal.supply is not None else None)
-    ),
+    **_of_table("supply"),
     indicator=_supply,
     out="no journal.supply: the bearing ends stand in oil",
     needs="a table journal.supply",
