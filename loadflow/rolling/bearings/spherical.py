@@ -67,6 +67,11 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
             )
 
     @property
+    def slides(self) -> bool:
+        """Barrels do: their raceways are spheres."""
+        return True
+
+    @property
     def catalogue_kind(self) -> CatalogueKind | None:
         """Of two rows; tables have no constants of barrels in one."""
         return "spherical" if self.rows == 2 else None
