@@ -255,14 +255,24 @@ def results():
     with TemporaryDirectory() as folder:
         loads = Path(folder) / "loads.h5"
         cube_file(loads, wind_speeds=(8.0, 12.0), seeds=(1, 2), steps=120)
-        scene = make_scene({"name": "all", "accuracy": "given", "loads": {"files": [str(loads)]}})
-        run(scene, out=folder, report=False)
-        tree = open_cube(Path(folder) / "all" / "result.h5")
-        return [
-            f"{leaf.path} {name} ({', '.join(map(str, one.dims))}) [{unit_of(one)}]"
-            for leaf in tree.leaves
-            for name, one in leaf.to_dataset(inherit=False).variables.items()
-        ]
+        lines = {}
+        for name, more in {
+            "all": {},
+            "rollers": {
+                "bearings": "two-spherical",
+                "results": ["rolling.friction"],
+                "shaft": {"two_point": {}},
+            },
+        }.items():
+            told = {"name": name, "accuracy": "given", "loads": {"files": [str(loads)]}}
+            run(make_scene(told | more), out=folder, report=False)
+            tree = open_cube(Path(folder) / name / "result.h5")
+            lines |= dict.fromkeys(
+                f"{leaf.path} {name} ({', '.join(map(str, one.dims))}) [{unit_of(one)}]"
+                for leaf in tree.leaves
+                for name, one in leaf.to_dataset(inherit=False).variables.items()
+            )
+        return [*lines]
 
 
 def unit_of(variable):

@@ -175,6 +175,15 @@ def test_friction_that_is_not_counted_is_told(given, left_out):
     assert all(said.startswith(f"friction: {left_out} of the rolling") for said in told)
 
 
+def test_the_sliding_of_barrels_is_told_not_to_be_counted():
+    def told(scene):
+        return [said for said in unused_warnings(scene) if "slide" in said]
+
+    (said,) = told(short(shaft={"two_point": {}}, bearings="two-spherical"))
+    assert "barrels in N, N2" in said
+    assert told(short(rolling=TAPERED)) == []
+
+
 def test_an_unknown_lubricant_is_refused_with_those_there_are():
     with pytest.raises(InputError, match=r"friction\.lubricant.*lgep-2"):
         short(friction={"lubricant": "butter"})

@@ -145,6 +145,8 @@ def _journal(scene):
 
 
 def _rolling(scene):
+    if any(part.catalogue is not None for part in scene.rolling.bearings.values()):
+        yield friction.losses(scene, ONE, inputs(scene))
     # with the effect of the rings on, too, as the run's own check has it
     for one in filter(None, (scene, finer(scene, "elastic rings"))):
         found = rolling.load_distribution(one, ONE, inputs(one))

@@ -10,6 +10,11 @@ from synthetic import cube_file
 WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1}
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
          "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
+TAPERED = {"kind": "roller", "rollers": 20, "slices": 6, "roller_diameter": 0.07,
+           "roller_length": 0.12, "pitch_diameter": 1.2, "rows": 2, "row_spacing": 0.25,
+           "contact_angle": 0.35, "clearance": -5e-5}  # fmt: skip
+BARRELS = {"kind": "spherical", "rollers": 20, "slices": 6, "roller_diameter": 0.07,
+           "roller_length": 0.12, "pitch_diameter": 1.2, "contact_angle": 0.2}  # fmt: skip
 FILM = {"grid": [24, 8], "bearings": ["N"]}
 FEW = {"size": 0.03, "classes": 2}  # samples; some touch, some have a film
 
@@ -82,6 +87,21 @@ BASES = {
             "clearance": -5e-5}, "rings": "flexible", "outer_ring": {
             "section": {"width": 0.1, "height": 0.3}, "radius": 0.7, "harmonics": 8}},
         "friction": {"conductance": 50.0},
+    },
+    **{
+        f"catalogue of {rollers}": {
+            "shaft": {"two_point": {}}, "results": ["rolling.friction"],
+            "rolling": {"bearing": "N2", "geometry": geometry, "catalogue": {
+                "bore": 0.9, "outside_diameter": 1.5} | entry}}
+        for rollers, geometry, entry in (
+            ("a series", TAPERED, {"series": "320 X", "axial_factor": 1.5}),
+            ("constants", TAPERED, {"constants": {
+                "kind": "tapered", "r1": 2e-6, "r2": 11.0, "s1": 0.02, "s2": 2.0,
+                "axial_factor": 1.5, "geometry": 6.0}}),
+            ("barrels", BARRELS, {"constants": {
+                "kind": "spherical", "r1": 2e-6, "r2": 5.0, "r3": 4e-6, "r4": 5.0, "s1": 4e-3,
+                "s2": 500.0, "s3": 0.01, "s4": 100.0, "geometry": 5.5}}),
+        )
     },
     "mounted rollers": {
         "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
@@ -325,6 +345,9 @@ WALKED = {
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
     "mounted rollers": ("rolling",),
+    "catalogue of a series": ("rolling.catalogue",),
+    "catalogue of constants": ("rolling.catalogue",),
+    "catalogue of barrels": ("rolling.catalogue",),
     "mounted rollers, loose": ("rolling", "environment"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -406,6 +429,7 @@ OTHERS = {
     "journal.own.N2.heat": [{"oil": "mineral-vg-320"}],
     "design.crown": [{}],
     "design.keys.geometry.width.values": [[1.0, 2.0]],
+    "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}],
     "rolling.further.0.mounting": [{"inner_temperature": 300.0}],
     "rolling.further.0.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.further.0.inner_ring": [{"section": {"width": 0.05, "height": 0.1}, "radius": 0.45}],
@@ -449,6 +473,9 @@ OTHERS = {
     "loads.azimuths": [[1.0], [1.0, 2.0]],
     "loads.yaw_errors": [[0.2]],
     "loads.wind_grid": [[9, 36]],
+    "rolling.catalogue.series": ["329"],
+    "rolling.catalogue.constants": [{"kind": "tapered", "r1": 1e-6, "s1": 0.02, "s2": 2.0}],
+    "rolling.catalogue.constants.s4": [0.0],
     "friction.lubricant": ["lgwm-2"],
     "friction.cleanliness": ["grease, severe contamination"],
     "journal.bearings": [["N2"], ["N", "N2"]],

@@ -45,14 +45,13 @@ def friction_pairs() -> Rows:
 def bearings() -> Rows:
     """Kinds of bearing, arrangements for rolling.arrangement, sized candidates of each turbine."""
     from loadflow.journal import JournalBearing
-    from loadflow.rolling import KINDS
     from loadflow.rolling.bearings.arrangements import ARRANGEMENTS, main_bearings
     from loadflow.scene.candidates import candidates_of, machine_names
-    from loadflow.scene.places import FOUR_POINT, PLACE_KINDS
+    from loadflow.scene.places import GEOMETRIES, PLACE_KINDS
     from loadflow.scene.thrust import ConicalPair, ThrustCollar
 
     films = (JournalBearing, ThrustCollar, ConicalPair)
-    known = dict(zip(PLACE_KINDS, films)) | KINDS | {FOUR_POINT: KINDS["slewing"]}
+    known = dict(zip(PLACE_KINDS, films)) | GEOMETRIES
     rows: list[Row] = [("kind", kind, _first_line(known[kind]), "") for kind in PLACE_KINDS]
     for name in ARRANGEMENTS:
         parts = main_bearings(name).items()

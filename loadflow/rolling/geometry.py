@@ -15,6 +15,9 @@ from loadflow.errors import InputError
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import Array, Contacts, mean_offset
 
+if TYPE_CHECKING:
+    from loadflow.rolling.friction.catalogue import CatalogueKind
+
 
 class RollingGeometry(ABC):
     """Geometry of a rolling bearing: its contacts, how they group, its capacities and ratings.
@@ -141,6 +144,16 @@ class RollingGeometry(ABC):
     def rib_guided(self) -> bool:
         """Whether its rollers are pressed on a rib, as tapered ones are."""
         return False
+
+    @property
+    def slides(self) -> bool:
+        """Whether rollers slide in raceways curved along them, which their friction leaves out."""
+        return False
+
+    @property
+    def catalogue_kind(self) -> CatalogueKind | None:
+        """Type of bearing in catalogues of friction; None where they have no constants here."""
+        return None
 
     def contact_angles(self, found: ContactForces) -> Array:
         """Operating contact angles, rad, (..., *groups, element); of balls, whose angle moves."""

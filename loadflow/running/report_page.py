@@ -198,7 +198,8 @@ def _sections(
         yield Section(
             "Friction of rolling bearings",
             f"Losses, film and slip over the series, {scene.friction.lubricant}; the friction "
-            "power of journal bearings stands in their own table."
+            "power of journal bearings stands in their own table. Torques after catalogues are for "
+            "comparison: nothing follows from them."
             + "".join(f" Doubtful: {note}." for note in friction_note(scene)),
             tables=[_case_table(tables["friction"])],
         )

@@ -31,7 +31,9 @@ from loadflow.rolling import (
     Support,
     main_bearings,
 )
+from loadflow.rolling.friction import CatalogueEntry
 from loadflow.scene.limits import RollingLimits
+from loadflow.scene.places import FOUR_POINT, GEOMETRIES
 from loadflow.scene.section import SECTION, told_apart
 
 
@@ -51,9 +53,9 @@ if TYPE_CHECKING:
     Geometry = RollingBearing
 else:
     Geometry = told_apart(
-        {kind: Annotated[cls, _PLAIN, _TOLD] for kind, cls in KINDS.items()}, usual="slewing"
+        {kind: Annotated[cls, _PLAIN, _TOLD] for kind, cls in GEOMETRIES.items()}, usual=FOUR_POINT
     )
-"""Geometry of a rolling bearing; ``kind`` says which, slewing if nothing is said."""
+"""Geometry of a rolling bearing; ``kind`` says which, four-point if nothing is said."""
 
 
 def standing_ring(
@@ -177,6 +179,9 @@ class FurtherBearing(BaseModel):
     ``roller_model = "whole"`` takes each roller as one contact, without its profile and its tilt.
     ``inertia = true`` counts centrifugal force and gyroscopic moment of the balls, between rigid
     rings; stiffnesses for the shaft and for rotor dynamics are those without them.
+
+    A `catalogue` entry (diameters, series) adds SKF's friction torque to Palmgren's, which stand
+    beside ours.
     """
 
     model_config = SECTION
@@ -190,6 +195,7 @@ class FurtherBearing(BaseModel):
     inertia: bool = False
     oscillation: Swing | None = None
     mounting: Mounting | None = None
+    catalogue: CatalogueEntry | None = None
     limits: RollingLimits = RollingLimits()
 
     @model_validator(mode="after")
@@ -205,6 +211,15 @@ class FurtherBearing(BaseModel):
         if self.mounting is not None:
             cold = self.mounting.reference_temperature
             self.mounting.gap_growth(self.geometry, cold, cold, *self._sections)
+        return self
+
+    @model_validator(mode="after")
+    def _is_in_the_catalogue(self) -> Self:
+        if self.catalogue is not None:
+            try:
+                self.catalogue.check(self.geometry)
+            except InputError as error:
+                raise ValueError(f"catalogue.{error}") from error
         return self
 
     @model_validator(mode="after")
@@ -274,8 +289,8 @@ class Rolling(FurtherBearing):
 
     A scene may give several, as a list ``[[rolling]]`` or as an ``arrangement`` of
     `loadflow.rolling.main_bearings`; those after the first are in ``further``. The key ``kind`` of
-    a geometry says which bearing it is: slewing (if nothing is said), ball, roller, spherical,
-    crossed or three-row.
+    a geometry says which bearing it is: four-point (if nothing is said; slewing is the same), ball,
+    roller, spherical, crossed or three-row.
 
     ``rings = "flexible"`` takes `inner_ring` and `outer_ring`; one that is left out is rigid,
     unless both and the geometry are. The rings of the default bearing have the diameters of

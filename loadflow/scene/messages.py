@@ -9,9 +9,8 @@ from typing import Any, cast
 from pydantic import ValidationError
 
 from loadflow.numerics.fields import shown, unknown_key
-from loadflow.rolling import KINDS
 from loadflow.scene.films import HEATS
-from loadflow.scene.places import AXIAL, Location
+from loadflow.scene.places import AXIAL, GEOMETRIES, Location
 
 
 def message(
@@ -61,8 +60,8 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
 
 def _known(location: Location, place: list[int | str], defaults: Mapping[str, Any]) -> list[str]:
     """Keys that are known where an unknown one stands."""
-    if len(location) > 2 and location[-3] == "geometry" and location[-2] in KINDS:
-        kind = KINDS[str(location[-2])]
+    if len(location) > 2 and location[-3] == "geometry" and location[-2] in GEOMETRIES:
+        kind = GEOMETRIES[str(location[-2])]
         return ["kind", *(field.name for field in fields(cast("Any", kind)))]
     data: Any = defaults
     for part in place[:-1]:
@@ -71,7 +70,7 @@ def _known(location: Location, place: list[int | str], defaults: Mapping[str, An
     return [*found, "arrangement"] if place[:-1] == ["rolling"] else found
 
 
-_TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": KINDS, "heat": HEATS}
+_TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": GEOMETRIES, "heat": HEATS}
 """Kinds of the keys whose tables pydantic tags with them."""
 
 

@@ -26,6 +26,9 @@ _REGISTERED = {FOUR_POINT: "slewing"}
 WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
 """Kinds of rolling bearings that scenes write in another word than the package has."""
 
+GEOMETRIES = {FOUR_POINT: KINDS[_REGISTERED[FOUR_POINT]]} | KINDS
+"""Kinds of rolling bearings by every word that a scene may have for them."""
+
 PLACE_KINDS = (JOURNAL, *AXIAL, *(WRITTEN.get(kind, kind) for kind in KINDS))
 """What `kind` a bearing of a scene may have."""
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from loadflow.rolling import KINDS
-from loadflow.scene.places import COLLAR, FOUR_POINT, JOURNAL
+from loadflow.scene.places import COLLAR, GEOMETRIES, JOURNAL
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import ConePair, ThrustCollar
 from loadflow.scene.written import SCENE
@@ -29,8 +28,7 @@ def json_schema() -> dict[str, Any]:
     schema = Scene.model_json_schema()
     parts, known = schema["$defs"], schema["properties"]
     parts["JournalPlace"] = _place(parts["Journal"], {JOURNAL: None}, drop=("bearings", "own"))
-    rolling = {name: cls.__name__ for name, cls in KINDS.items()}
-    rolling = {FOUR_POINT: rolling["slewing"]} | rolling
+    rolling = {name: cls.__name__ for name, cls in GEOMETRIES.items()}
     for kind, geometry in rolling.items():
         parts[_name(kind)] = _place(parts["FurtherBearing"], {kind: geometry}, drop=("bearing",))
     axial = {cls.model_fields["kind"].default: cls.__name__ for cls in (ThrustCollar, ConePair)}

@@ -8,15 +8,13 @@ from pathlib import Path
 from loadflow.journal import FilmHeat, Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.journal.surfaces import Reversed
-from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import Churning
-from loadflow.rolling.mounting import unused_of
-from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.places import SHARED
 from loadflow.scene.scene import Scene, make_scene
-from loadflow.scene.section import Section, idle_keys, keys_of
+from loadflow.scene.section import Section, idle_keys
+from loadflow.scene.unused_rolling import mounted, of_each_rolling, of_friction
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
@@ -91,11 +89,11 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
             yield ".".join(map(str, keys)), reason
     yield from _of_shaft(scene)
     yield from _of_thrust(scene) if "thrust" not in unread else ()
-    yield from _of_each_rolling(scene) if "rolling" not in unread else ()
+    yield from of_each_rolling(scene) if "rolling" not in unread else ()
     for section, rules in (
         ("reduction", _of_reduction),
         ("journal", _of_journal),
-        ("friction", _of_friction),
+        ("friction", of_friction),
         ("dynamics", _of_dynamics),
         ("wear", _of_wear),
         ("lifetime", _of_lifetime),
@@ -129,7 +127,7 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     heats = [journal.at(place).heat for journal in journals for place in journal.bearings]
     warm = [heat for heat in heats if heat is not None]
     rolls = scene.wants("rolling") or any(one.rolling is not None for one in others)
-    sheds = rolls and (scene.friction.conductance is not None or _mounted(scene))
+    sheds = rolls and (scene.friction.conductance is not None or mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
@@ -163,12 +161,18 @@ def friction_note(scene: Scene) -> tuple[str, ...]:
     options = scene.friction
     absent = {"churning": options.churning == Churning(), "seals": options.seal_torque == 0}
     left_out = [part for part, is_absent in absent.items() if is_absent]
-    if not left_out:
-        return ()
-    return (
-        f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
-        "form is trustworthy; friction.churning and friction.seal_torque take measured ones",
-    )
+    said = []
+    if left_out:
+        said.append(
+            f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
+            "form is trustworthy; friction.churning and friction.seal_torque take measured ones"
+        )
+    if barrels := [place for place, one in scene.rolling.geometries.items() if one.slides]:
+        said.append(
+            f"friction: barrels in {', '.join(barrels)} slide in their curved raceways, which is "
+            "not counted; the torque after catalogues has it"
+        )
+    return tuple(said)
 
 
 # --- loads ------------------------------------------------------------------------------------
@@ -334,68 +338,6 @@ _NO_START = "no load case of this scene starts, stops or stands"
 
 def _starts(dlc: str) -> bool:
     return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
-
-
-def _of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
-    """Keys of any of the rolling bearings, which stand in a list after the first one."""
-    for number, part in enumerate(scene.rolling.bearings.values(), -1):
-        where = "rolling" if number < 0 else f"rolling.further.{number}"
-        if part.geometry.element != "roller" and "roller_model" in part.model_fields_set:
-            yield f"{where}.roller_model", f"a {part.geometry.kind} bearing has no rollers"
-        for ring, reason in _of_rings(scene, part):
-            yield f"{where}.{ring}", reason
-        for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
-            yield f"{where}.mounting.{key}", reason
-
-
-def _of_rings(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
-    reason = ""
-    if not part.geometry.flexible_rings:
-        reason = f"a {part.geometry.kind} bearing has rigid rings only"
-    elif part.rings == "rigid" and (not scene.asks or "rings" in part.model_fields_set):
-        reason = 'rings = "rigid"'
-    for key in ("inner_ring", "outer_ring") if reason else ():
-        if getattr(part, key) not in (None, keys_of(part)[key]):
-            yield key, reason
-
-
-def _mounted(scene: Scene) -> bool:
-    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
-    every = (part for rolling in (scene.rolling, *others) for part in rolling.bearings.values())
-    return any(part.mounting is not None for part in every)
-
-
-_OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
-"""Keys of friction that the modified life reads, too."""
-
-
-def _balances(part: FurtherBearing) -> bool:
-    return part.geometry.friction_model is not None and part.oscillation is None
-
-
-def _of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
-    friction, bearings = scene.friction, scene.rolling.geometries.values()
-    if "rolling.friction" not in scene.results:
-        for key in type(friction).model_fields:
-            if key not in _OF_LIFE:
-                yield key, "the result rolling.friction is not wanted"
-    if friction.conductance is None and not _mounted(scene):
-        yield "ambient_temperature", "no friction.conductance, no mounting of a bearing"
-    elif all(_balances(part) for part in scene.rolling.bearings.values()):
-        yield "temperature", "with a conductance each bearing has that of its heat balance"
-    if "rolling.friction" not in scene.results:
-        return
-    rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
-    ribs = ("rib_height", "rib_radius", "rib_friction")
-    if not rollers:
-        for key in ("rib_angle", *ribs):
-            yield key, "no bearing of this scene has rollers on ribs"
-    elif friction.rib_angle == 0.0 or (
-        friction.rib_angle is None
-        and not any(isinstance(b, RollerBearing) and b.contact_angle > 0 for b in rollers)
-    ):
-        for key in ribs:
-            yield key, "the rollers press on no rib: friction.rib_angle is 0"
 
 
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:

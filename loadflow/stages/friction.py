@@ -11,6 +11,7 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import FrictionOptions, roller_slip
+from loadflow.rolling.friction import torques_beside
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -33,6 +34,13 @@ KEPT = {
     "slip": ("1", "slip of the slower row: missing spin of rollers, mean sliding of balls"),
     "slip_power_density": ("W/m^2", "largest slip power over contact area"),
 }
+
+CATALOGUES = {
+    "palmgren": ("palmgren_torque", "Palmgren"),
+    "constant coefficient": ("constant_coefficient_torque", "a constant coefficient of catalogues"),
+    "skf": ("skf_torque", "SKF"),
+}
+"""Variable and words of the torque after each catalogue, of those bearings that have it."""
 
 
 def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
@@ -79,7 +87,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     kept = {
         name: (("bearing", "sample"), np.stack([part[name] for part in found]), label(*about))
         for name, about in KEPT.items()
-    }
+    } | _beside(found, speed.size)
     samples = xr.Dataset(
         kept
         | {
@@ -94,6 +102,20 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     return samples
 
 
+def _beside(found: list[dict[str, Any]], size: int) -> dict[str, Any]:
+    """Torques after the catalogues that know any of the bearings; NaN of those they do not know."""
+    unknown = np.full(size, np.nan)
+    return {
+        name: (
+            ("bearing", "sample"),
+            np.stack([part["catalogues"].get(key, unknown) for part in found]),
+            label("N m", f"friction torque after {words}, for comparison"),
+        )
+        for key, (name, words) in CATALOGUES.items()
+        if any(key in part["catalogues"] for part in found)
+    }
+
+
 def _rollers(
     part: FurtherBearing,
     force: np.ndarray,
@@ -101,7 +123,7 @@ def _rollers(
     time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """What is kept of a roller bearing, its rollers followed one by one."""
     result: Any = part.modelled.equilibrium(force, moment)
     found = roller_slip(result, time, speed, options)
@@ -112,6 +134,7 @@ def _rollers(
         "slip_power": found.friction.losses["slip"],
         "slip": found.slip.mean(axis=-1).max(axis=-1),
         "slip_power_density": found.slip_power_density.max(axis=(-2, -1)),
+        "catalogues": torques_beside(result, speed, options, part.catalogue),
     }
 
 
@@ -122,7 +145,7 @@ def _balls(
     time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
-) -> dict[str, np.ndarray]:
+) -> dict[str, Any]:
     """What is kept of a ball bearing, whose balls keep up with the cage."""
     parts = []
     for start in range(0, speed.size, CHUNK):
@@ -137,10 +160,11 @@ def _balls(
         mean = _mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
         parts.append((found.power, found.torque, least, slip, mean, density))
-    return dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
+    kept = dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
+    return kept | {"catalogues": {}}
 
 
-def _unknown(part: FurtherBearing, *_: Any) -> dict[str, np.ndarray]:
+def _unknown(part: FurtherBearing, *_: Any) -> dict[str, Any]:
     raise SolverError(
         f"no model of friction for the contacts of a {type(part.geometry).__name__}; "
         "rolling.friction_torque_loads estimates its torque from the loads"
@@ -176,6 +200,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
         {
             "mean_friction_power": (mean["friction_power"], "W", "mean friction power"),
             "mean_friction_torque": (mean["friction_torque"], "N m", "mean friction torque"),
+            **_mean_beside(mean),
             "mean_slip_power": (mean["slip_power"], "W", "mean power lost in slip"),
             "median_film_parameter": (least, "1", "median of the least Λ"),
             **time_shares(samples, samples["friction_power"]),
@@ -188,6 +213,15 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             ),
         }
     )
+
+
+def _mean_beside(mean: xr.Dataset) -> dict[str, Any]:
+    """Mean torques after catalogues, beside our own."""
+    return {
+        f"mean_{name}": (mean[name], "N m", f"mean friction torque after {words}, for comparison")
+        for name, words in CATALOGUES.values()
+        if name in mean
+    }
 
 
 def friction_key(scene: Scene) -> str:

@@ -18,10 +18,10 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_factor import Margin
+from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import (
     damage_per_hour,
     margin_of,
-    rolling_losses,
     row_shares,
 )
 from loadflow.studies.compare_pads import clearance_used
@@ -281,7 +281,12 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
             losses.film_parameter, "–", low, high, case=losses.case, time=losses.time,
             place=losses.place, note=f"median below {speed:.3g} 1/min",
         )  # fmt: skip
-    yield from _lost(run, table, None if losses is None else losses.power, "without slip")
+        for name, torque in losses.torques.items():
+            own = torque.sel(case=table["case"].values).sum("bearing").values
+            yield name, _mean(run, own, share, groups, "N m")
+    slides = any(one.slides for one in run.scene.rolling.geometries.values())
+    note = "without slip, nor the sliding of barrels" if slides else "without slip"
+    yield from _lost(run, table, None if losses is None else losses.power, note)
 
 
 def _years(damage: np.ndarray, share: np.ndarray, slope: float, some: np.ndarray) -> float:

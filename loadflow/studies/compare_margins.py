@@ -1,4 +1,4 @@
-"""What lives and film verdicts leave out of a comparison: reserves, rows, tilt, slow films."""
+"""What lives and film verdicts leave out of a comparison: reserves and shares of rows."""
 
 from __future__ import annotations
 
@@ -12,15 +12,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.film_of_bearing import equilibria
-from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling import bearing_at_work
-from loadflow.stages.rolling_at_work import friction_options, rest
+from loadflow.stages.rolling_at_work import rest
 from loadflow.studies.compare_factor import (
     SAMPLES,
     WIDEST,
@@ -41,7 +39,6 @@ from loadflow.verdict import Verdict
 Tables = Mapping[str, xr.Dataset]
 
 
-_SLOW = 0.1  # share of the samples that counts as low speed
 _TOLD = 2  # changes that are told
 _LIFE = "rolling.life", "life"  # result and quantity whose error a margin of lives has
 _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
@@ -242,11 +239,11 @@ def _spectrum(
     """Equivalent loads, N, speeds, rad/s, and shares of time of some samples of all cases."""
     lifetime = tables.get("lifetime")
     parts = []
-    for case, some in _looked_at(folder, place):
+    for case, some in looked_at(folder, place):
         share = 1.0
         if lifetime is not None and "share" in lifetime:
             share = float(lifetime["share"].sel(case=case))
-        answer = _solved(scene, place, some)
+        answer = solved(scene, place, some)
         speed = some["speed"].values.astype(float)
         weight = np.full(speed.size, share / speed.size)
         parts.append((answer.equivalent_load, speed, weight))
@@ -254,14 +251,15 @@ def _spectrum(
     return load, speed, weight
 
 
-def _solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
+def solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
+    """Equilibrium of a rolling bearing, as it is at work, under some samples of a case."""
     force, moment = (
         some[name].transpose("sample", "axis").values.astype(float) for name in ("force", "moment")
     )
     return rest(bearing_at_work(scene, place, some), force, moment, strict=False)
 
 
-def _looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:
+def looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield each case and some of its samples, that with the largest thrust among them."""
     for path in sorted((folder / "reduction").glob("*.h5")):
         samples = reduced_samples(path, place)
@@ -282,11 +280,11 @@ def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
             continue
         parts = [
             (case, float(some["time"].values[k]), float(force), row)
-            for case, some in _looked_at(folder, place)
+            for case, some in looked_at(folder, place)
             for k, (force, row) in enumerate(
                 zip(
                     some["force"].sel(axis="x").values,
-                    load_by_row(bearing, _solved(scene, place, some)),
+                    load_by_row(bearing, solved(scene, place, some)),
                 )
             )
         ]
@@ -315,78 +313,3 @@ def load_by_row(bearing: RollingBearing, answer: Any) -> np.ndarray:
     own = forces.reshape(len(forces), bearing.groups[0], -1).sum(axis=-1)
     with np.errstate(invalid="ignore"):
         return np.asarray(own / own.sum(axis=1, keepdims=True))
-
-
-@dataclass(frozen=True)
-class Losses:
-    """Losses and films of rolling bearings in ideal rolling, without slip.
-
-    Attributes
-    ----------
-    power : xarray.DataArray
-        Mean friction power (case, bearing), W.
-    film_parameter : float
-        Median of the least Λ of loaded contacts at low speed, of the bearing with the thinnest.
-    place, case : str
-        That bearing, and the load case of the thinnest film in it.
-    time, speed : float
-        Its time, s, and the speed below which a speed is low, rad/s.
-    by_case : dict
-        Λ at low speed of that bearing in each load case that has one.
-    """
-
-    power: xr.DataArray
-    film_parameter: float
-    place: str
-    case: str
-    time: float
-    speed: float
-    by_case: dict[str, list[float]]
-
-
-def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
-    """Friction and films of the rolling bearings in some samples of all cases.
-
-    None where there is no model of friction for one of them.
-    """
-    power: dict[tuple[str, str], float] = {}
-    films: dict[str, list[tuple[float, float, str, float]]] = {}
-    for place, bearing in scene.rolling.geometries.items():
-        options = friction_options(scene.friction, bearing)
-        for case, some in _looked_at(folder, place):
-            speed = some["speed"].values.astype(float)
-            answer = _solved(scene, place, some)
-            try:
-                lost = answer.friction(speed, options)
-            except SolverError:
-                return None
-            weight = some["weight"].values.astype(float)
-            power[case, place] = float((lost.power * weight).sum() / weight.sum())
-            least = least_film_parameter(lost.film_parameter, answer.element_forces)
-            times = some["time"].values.astype(float)
-            films.setdefault(place, []).extend(
-                (abs(float(v)), float(film), case, float(t))
-                for v, film, t in zip(speed, least, times)
-                if v != 0 and math.isfinite(film)
-            )
-    cases = list(dict.fromkeys(case for case, _ in power))
-    places = list(scene.rolling.geometries)
-    table = xr.DataArray(
-        [[power[case, place] for place in places] for case in cases],
-        {"case": cases, "bearing": places},
-        ("case", "bearing"),
-    )
-    speeds = np.array([row[0] for rows in films.values() for row in rows])
-    if speeds.size == 0:
-        return Losses(table, math.nan, "", "", math.nan, math.nan, {})
-    slow = float(np.quantile(speeds, _SLOW))
-    thin = {place: [row for row in rows if row[0] <= slow] for place, rows in films.items()}
-    medians = {
-        place: float(np.median([row[1] for row in rows])) for place, rows in thin.items() if rows
-    }
-    place = min(medians, key=lambda name: medians[name])
-    _, _, case, time = min(thin[place], key=lambda row: row[1])
-    by_case: dict[str, list[float]] = {}
-    for _, film, name, _ in thin[place]:
-        by_case.setdefault(name, []).append(film)
-    return Losses(table, medians[place], place, case, time, slow, by_case)

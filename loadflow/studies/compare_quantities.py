@@ -19,9 +19,10 @@ class Compared(NamedTuple):
         Of its numbers.
     group : str
         Of rows of the page that it stands in.
-    of : {"all", "film", "journal", "collar", "rolling", "rows"}
+    of : {"all", "film", "journal", "collar", "rolling", "rows", "catalogues"}
         Bearings that have it: journal bearings or pads in their place, journal bearings alone, a
-        thrust collar beside them, rolling bearings, several rows of which one takes the thrust.
+        thrust collar beside them, rolling bearings, several rows of which one takes the thrust,
+        rolling bearings of which catalogues know enough.
     at_most : bool
         Its limit must not be exceeded; that of others must be reached.
     top : float
@@ -33,13 +34,14 @@ class Compared(NamedTuple):
     name: str
     unit: str
     group: str
-    of: Literal["all", "film", "journal", "collar", "rolling", "rows"] = "all"
+    of: Literal["all", "film", "journal", "collar", "rolling", "rows", "catalogues"] = "all"
     at_most: bool = False
     top: float = math.inf
     rule: bool = False
 
 
 _SHORT, _CAPACITY, _OIL = "In short", "Capacity", "Oil"
+_TORQUE = "Friction torque of rolling bearings beside that of catalogues"
 _BEFORE = "What fails before rating life does"
 
 QUANTITIES: dict[str, Compared] = {
@@ -89,6 +91,12 @@ QUANTITIES: dict[str, Compared] = {
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",
         "µm", _BEFORE, "journal", at_most=True, rule=True,
+    ),
+    "friction_torque": Compared("mean friction torque, ours", "N m", _TORQUE, "rolling"),
+    "palmgren_torque": Compared("after Palmgren", "N m", _TORQUE, "catalogues"),
+    "skf_torque": Compared("after SKF, with its constants", "N m", _TORQUE, "catalogues"),
+    "constant_coefficient_torque": Compared(
+        "after a constant coefficient, on the bore", "N m", _TORQUE, "catalogues"
     ),
     "oil_flow": Compared("oil that leaves the film", "l/min", _OIL, "journal"),
     "pump": Compared("power to supply the oil", "kW", _OIL, "journal"),

@@ -164,6 +164,7 @@ def without(rooms: Sequence[str]) -> dict[str, Number]:
         "journal": fails if "journal" in rooms else pads,
         "collar": "no thrust collar beside journals",
         "rolling": fails if turns else elements,
+        "catalogues": "no constants of these bearings" if turns else elements,
         "rows": "no bearing with several rows takes the thrust" if turns else elements,
     }
     return {

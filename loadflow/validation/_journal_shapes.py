@@ -90,7 +90,7 @@ def coefficient_checks() -> Iterator[Check]:
     """Stiffness and damping of Lund & Thomsen 1978 (their last digit is worth up to 0.5 %).
 
     K_yx passes through zero: its tolerance is absolute. That and the damping are what the place of
-    the rupture moves most.
+    the rupture moves most; where most of the film is full (K_yx beyond 2), it moves less.
     """
     from loadflow.journal import JournalBearing, Lobes
 
@@ -118,11 +118,11 @@ def _rows(
         yield Check(f"ε, {label}", source, row.ratio, got.ratio, 0.001, "absolute")
         if np.isfinite(row.attitude):
             yield Check(f"φ, {label}", source, row.attitude, got.attitude, 0.15, "absolute", "°")
-        for key, tolerance in (("k_xx", 0.015), ("k_xy", 0.015), ("k_yy", 0.02), ("b_xx", 0.015)):
+        for key, tolerance in (("k_xx", 0.015), ("k_xy", 0.01), ("k_yy", 0.02), ("b_xx", 0.01)):
             value = getattr(row, key)
             yield Check(f"{key}, {label}", source, value, getattr(got, key), tolerance)
-        for key in ("k_yx", "b_xy", "b_yy"):
-            tolerance = max(0.03 * abs(getattr(row, key)), 0.05)
+        for key, share in (("k_yx", 0.01), ("b_xy", 0.03), ("b_yy", 0.03)):
+            tolerance = max(share * abs(getattr(row, key)), 0.04)
             value = getattr(row, key)
             yield Check(f"{key}, {label}", source, value, getattr(got, key), tolerance, "absolute")
 
@@ -168,7 +168,10 @@ COMSOL = {
     10000: ((330.0, 0.0), (320.0, 18.0), (300.0, 67.0), (287.6, 79.0), (280.0, 78.0), (260.0, 60.0),
             (240.0, 40.0), (220.0, 24.0), (200.0, 10.0), (188.0, 2.0)),
 }  # fmt: skip
-_TURNED = 5.0  # °, by which the curves may lie apart
+_TURNED = 2.0, 5.0  # °, by which curves may lie apart above three tenths of the peak, and below
+_FLAT = {(100, 220.0): 2.0, (100, 200.0): 2.0, (316, 200.0): 2.0, (10000, 188.0): 4.0}
+"""Places at which a curve is too flat to have a place of a pressure: how far apart in bar."""
+_HELD = 0.07  # of the largest pressure printed, where ours has none as large
 _ENDS = (
     "the film ends within 2° of 280° there, within 10° here; its narrow place is √(2 (1 − ε)), 16 "
     "and 23°, wide"
@@ -188,7 +191,7 @@ _COMSOL_MISSED = {
 def comsol_checks() -> Iterator[Check]:
     """EHL example of COMSOL 6.4, rigid, α = 25 GPa⁻¹, fed at 2 bar by two 10 mm grooves.
 
-    A pressure counts as met where the curve has it within 5°, to 7 % of the largest one printed.
+    Its curves are steep: what is held is the place at which ours has the pressure that is printed.
     """
     from loadflow.journal import Film, Groove, JournalBearing, Lubricant, Supply
 
@@ -199,7 +202,7 @@ def comsol_checks() -> Iterator[Check]:
     state = bearing.equilibrium((0.0, -40e3), 10000 * np.pi / 30, even)
     got = float(state.eccentricity_ratio)
     yield Check(
-        "ε, 10,000 1/min, one viscosity", "another rigid film", 0.498, got, 0.002, "absolute"
+        "ε, 10,000 1/min, one viscosity", "another rigid film", 0.498, got, 0.001, "absolute"
     )
     for rpm, points in COMSOL.items():
         speed = rpm * np.pi / 30
@@ -210,19 +213,36 @@ def comsol_checks() -> Iterator[Check]:
         middle = field.pressure[:, field.z.size // 2] / 1e5
         if rpm == 10000:
             got = float(angle[middle.argmax()])
-            yield Check("peak, 10,000 1/min", "COMSOL", 287.6, got, 5.0, "absolute", "°")
+            # a cell is 3° wide; the peak is flat
+            yield Check("peak, 10,000 1/min", "COMSOL", 287.6, got, 1.5, "absolute", "°")
             got = float(middle.max())
-            yield Check("largest p, 10,000 1/min", "COMSOL", 79.0, got, 0.02, unit="bar")
+            yield Check("largest p, 10,000 1/min", "COMSOL", 79.0, got, 0.01, unit="bar")
         highest = max(pressure for _, pressure in points)
         for turn, pressure in points:
-            near = np.linspace(turn - _TURNED, turn + _TURNED, 41)
-            found = np.interp(near, angle[order], middle[order])
-            low, high = float(found.min()), float(found.max())
             missed = _COMSOL_MISSED.get((rpm, turn), "")
-            yield Check(
-                f"p at {turn}°, {rpm:,} 1/min", "COMSOL", pressure, min(max(pressure, low), high),
-                0.07 * highest, "absolute", "bar", missed=missed,
-            )  # fmt: skip
+            curve = angle[order], middle[order]
+            if (rpm, turn) in _FLAT or pressure > middle.max() * (1 + _HELD):
+                got = float(np.interp(turn, *curve))
+                within = _FLAT.get((rpm, turn), _HELD * highest)
+                what, expected, unit = f"p at {turn}°", pressure, "bar"
+            else:
+                got = place_of(pressure, turn, *curve)
+                within = _TURNED[pressure < 0.3 * highest]
+                what, expected, unit = f"place of {pressure:g} bar near {turn:g}°", turn, "°"
+            name = f"{what}, {rpm:,} 1/min"
+            yield Check(name, "COMSOL", expected, got, within, "absolute", unit, missed=missed)
+
+
+def place_of(value: float, near: float, angle: np.ndarray, values: np.ndarray) -> float:
+    """Angle at which a curve has a value, the one next to another angle; NaN if it never has.
+
+    Of 0 the angle at which the curve becomes 0.
+    """
+    above = values > value
+    ends = np.flatnonzero(above[:-1] != above[1:])
+    share = (value - values[ends]) / (values[ends + 1] - values[ends])
+    places = angle[ends] + share * (angle[ends + 1] - angle[ends])
+    return float(places[np.abs(places - near).argmin()]) if places.size else float("nan")
 
 
 def pocket_slider(cells: int) -> FilmField:
@@ -298,11 +318,12 @@ def slider_checks() -> Iterator[Check]:
     yield Check("error of the flux, 200 cells", source, 1e-4, flux, 0.0, "below")
     got = parabolic_slider(800)
     source, cell = "parabolic slider", 76.2e-3 / 800
-    yield Check("load, 800 cells", source, PARABOLA["load"], got["load"], 1e-4, unit="N/m")
-    yield Check("peak, 800 cells", source, PARABOLA["peak"], got["peak"], 1e-4, unit="Pa")
+    # 400 cells are 4e-6 and 1.3e-5 off; half a cell is what a place among them can say
+    yield Check("load, 800 cells", source, PARABOLA["load"], got["load"], 1e-6, unit="N/m")
+    yield Check("peak, 800 cells", source, PARABOLA["peak"], got["peak"], 3e-6, unit="Pa")
     for place in ("rupture", "reformation"):
         yield Check(
-            f"{place}, 800 cells", source, PARABOLA[place], got[place], cell, "absolute", "m"
+            f"{place}, 800 cells", source, PARABOLA[place], got[place], 0.5 * cell, "absolute", "m"
         )
 
 

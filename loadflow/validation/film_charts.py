@@ -20,15 +20,15 @@ def stated_error_checks() -> Iterator[Check]:
     closed = [film.butenschoen(ratios, width) for width in widths]
     so = np.stack([pair[0] for pair in closed], axis=-1)
     beta = np.degrees(np.stack([pair[1] for pair in closed], axis=-1))
-    source = "errors measured by another solver"
+    source = "errors measured by another solver"  # two digits, to half of the last one
     worst = float(np.abs(so / numbers - 1).max())
-    yield Check("largest error of So", source, 0.066, worst, 0.02)
+    yield Check("largest error of So", source, 0.066, worst, 0.01)
     worst = float(np.abs(beta - attitudes).max())
     yield Check("largest error of β", source, 2.4, worst, 0.02, unit="°")
     _, signed, squeeze = film_tables.reference_table("ref_So_squeeze.csv")
     numbers = np.stack([film.butenschoen_squeeze(signed, width) for width in widths], axis=-1)
     worst = float(np.abs(numbers / squeeze - 1).max())
-    yield Check("largest error of So_V", source, 0.054, worst, 0.02)
+    yield Check("largest error of So_V", source, 0.054, worst, 0.01)
 
 
 # Raimondi & Boyd 1958, L/D = 1: ε, S, φ (°), (r/c) f, Q/(rcNL), Q_s/Q, P/p_max. A check to 1 … 4 %,
@@ -53,13 +53,15 @@ def raimondi_boyd_checks() -> Iterator[Check]:
     source = "Raimondi & Boyd, L/D = 1"
     for ratio, number, attitude, friction, flow, side, peak in RAIMONDI_BOYD:
         load = 0.05 / (2 * np.pi * number) / 1e-6
+        # S of ε = 0.4 lies 1 % off the trend of the others, which meet to the digits of S
+        apart = 4.0 if ratio == 0.4 else 1.0
         state = bearing.equilibrium((load, 0.0), 1.0, Lubricant(0.05), rung="table")
         got = float(state.eccentricity_ratio)
-        yield Check(f"ε, S = {number}", source, ratio, got, 0.006, "absolute")
+        yield Check(f"ε, S = {number}", source, ratio, got, 0.001 * apart, "absolute")
         got = float(np.degrees(state.attitude_angle))
-        yield Check(f"φ, S = {number}", source, attitude, got, 0.8, "absolute", "°")
+        yield Check(f"φ, S = {number}", source, attitude, got, 0.2 + 0.05 * apart, "absolute", "°")
         got = float(state.friction_power) / (load * 0.5) * 1e3
-        yield Check(f"(r/c) f, S = {number}", source, friction, got, 0.03)
+        yield Check(f"(r/c) f, S = {number}", source, friction, got, 0.003 * apart)
         got = float(state.side_flow) / (0.5 * 0.5e-3 / (2 * np.pi))
         yield Check(f"Q_s/(rcNL), S = {number}", source, flow * side, got, 0.035)
         got = load / float(state.maximum_pressure)

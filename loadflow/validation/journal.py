@@ -69,15 +69,18 @@ def peak_number(pressure: float, omega: float) -> float:
 
 @evidence("print of the source")
 def base_load_checks() -> Iterator[Check]:
-    """Table 5-13; the base periods are so long that the worst load acts as if it stood still."""
+    """Table 5-13; the base periods are so long that the worst load acts as if it stood still.
+
+    E_max has two digits; with the motion that is left out, ours lies up to 0.007 and 1 % apart.
+    """
     bearing, film = reference_bearing()
     for row in BASE_LOADS:
         state = bearing.equilibrium(row.worst_loads, row.omega, **film)
         name = f"V = {row.wind} m/s"
         e_max = float(state.eccentricity_ratio.max())
-        yield Check(f"E_max, {name}", "Table 5-13", row.e_max, e_max, 0.015, "absolute")
+        yield Check(f"E_max, {name}", "Table 5-13", row.e_max, e_max, 0.01, "absolute")
         so_max = peak_number(float(state.maximum_pressure.max()), row.omega)
-        yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.02)
+        yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.012)
 
 
 # Table 1-3: mean pressure (Pa), speed (rad/s), So; ψ = 1e-3, η = 0.09 Pa s
@@ -121,7 +124,7 @@ def periodic_load_checks() -> Iterator[Check]:
         force = np.stack([sines(x, time), sines(y, time)], axis=-1)
         orbit = bearing.orbit(time, force, omega, **film)
         got = float(orbit.eccentricity_ratio.max())
-        yield Check(f"E_max, seed {seed}", "Table 5-16", e_max, got, 0.015, "absolute")
+        yield Check(f"E_max, seed {seed}", "Table 5-16", e_max, got, 0.01, "absolute")
         got = peak_number(float(orbit.maximum_pressure.max()), omega)
         yield Check(f"So_max, seed {seed}", "Table 5-15", so_max, got, 0.07)
 
@@ -191,7 +194,7 @@ def rotation(width_ratio: float, ratio: float, law: Any, **film: Any) -> tuple[f
 
 @evidence("another code")
 def converged_table_checks() -> Iterator[Check]:
-    """A sample of the converged Swift–Stieber tables on the default grid."""
+    """A sample of the converged Swift–Stieber tables on the default grid, within its error."""
     from loadflow.journal import Reynolds
 
     widths, ratios, numbers = reference_table("ref_So_rot.csv")
@@ -202,7 +205,7 @@ def converged_table_checks() -> Iterator[Check]:
             name = f"B/D = {widths[j]:.4g}, ε = {ratios[i]}"
             yield Check(f"So, {name}", "converged table", numbers[i, j], so, 0.002)
             angle = attitudes[i, j]
-            yield Check(f"β, {name}", "converged table", angle, beta, 0.05, "absolute", "°")
+            yield Check(f"β, {name}", "converged table", angle, beta, 0.015, "absolute", "°")
 
 
 SIDE_FLOW = {

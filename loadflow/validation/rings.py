@@ -119,10 +119,12 @@ def _closed_forms() -> Iterator[Check]:
     for height in (0.0, 0.025):
         matrix = _compliance(ring, around, radius, height)
         moved = matrix[:, 0, :, 0].sum(axis=1).mean() * 2 * math.pi * radius / 32
-        stretch = radius**2 / (modulus * tall.area)
+        bends = 1 + tall.inertia_axial / (tall.area * radius**2)  # a wider ring is less curved
+        stretch = radius**2 / (modulus * tall.area * bends)
         twist = height**2 * radius**2 / (modulus * tall.inertia_radial)
         yield Check(f"uniform radial load {height * 1e3:g} mm off the centroid",
-                    "q R²/(E A) + q e² R²/(E I_r)", stretch + twist, moved, 1e-3,
+                    "q R²/(E A) (1 + I_a/A R²)⁻¹ + q e² R²/(E I_r)", stretch + twist, moved,
+                    1e-9,
                     unit="m²/N")  # fmt: skip
 
 
@@ -165,7 +167,7 @@ def _rigid_limit() -> Iterator[Check]:
     rigid = DRIVE.equilibrium((6500, 0, 8000), (0, 2000))
     _, force = _solve(DRIVE, (6500, 0, 8000, 0, 2000), _beams(1e6))
     yield Check("F_k,max, rings 10⁶ times stiffer", "rigid rings", float(rigid.maximum_force),
-                force, 1e-5, unit="N")  # fmt: skip
+                force, 1e-6, unit="N")  # fmt: skip
 
 
 @evidence("print of the source")
@@ -245,7 +247,7 @@ def _drive() -> Iterator[Check]:
     for case, expected in UNCONDENSED.items():
         name = "F = ({:g}, {:g}, {:g}) N, M = ({:g}, {:g}) N m".format(*case)
         yield from _beside(
-            exact, case, rings, expected, name, f"nothing condensed, {ASSUMED}", 0.01
+            exact, case, rings, expected, name, f"nothing condensed, {ASSUMED}", (5e-5, 5e-4)
         )
 
 
@@ -256,12 +258,15 @@ def _beside(
     expected: tuple[float, float],
     name: str,
     source: str,
-    tolerance: float = 0.05,
+    within: tuple[float, float] = (0.05, 0.015),
 ) -> Iterator[Check]:
-    """Displacement and largest ball force beside those of a fuller model."""
+    """Displacement and largest ball force beside those of a fuller model, and how near it is.
+
+    Forces of balls add up to the load whatever the rings do: they are nearer than displacements.
+    """
     shift, force = _solve(bearing, load, rings)
-    for label, fuller, got, unit in (
-        ("|u|", expected[0] * 1e3, shift * 1e3, "mm"),
-        ("F_k,max", expected[1], force, "N"),
+    for label, fuller, got, tolerance, unit in (
+        ("|u|", expected[0] * 1e3, shift * 1e3, within[0], "mm"),
+        ("F_k,max", expected[1], force, within[1], "N"),
     ):
         yield Check(f"{label}, {name}", source, fuller, got, tolerance, unit=unit)

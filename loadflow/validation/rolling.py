@@ -19,6 +19,7 @@ from loadflow.tribology.hertz import curvature_sum, effective_modulus, stiffness
 from loadflow.validation import (
     _rolling_standards,
     _slewing_assumed,
+    _slewing_rebuilt,
     _slewing_refused,
     _slewing_trends,
     rings,
@@ -46,6 +47,7 @@ def checks() -> Iterator[Check]:
     yield from _friction()
     yield from _geometry()
     yield from _slewing_assumed.checks()
+    yield from _slewing_rebuilt.checks()
     yield from rings.printed()
     yield from _slewing_trends.checks()
     yield from _slewing_refused.checks()

@@ -31,8 +31,10 @@ from loadflow.running.comparison import (
     shared_loads,
 )
 from loadflow.scene.candidate import Candidate
+from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
-from loadflow.studies.compare_margins import damage_per_hour, margin_of, rolling_losses
+from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import Judged, Number, plain
@@ -91,6 +93,30 @@ def test_numbers_are_finite_where_they_are_asked(found):
     assert film.low <= film.value <= film.high
     assert film.value > film.limit
     assert film.case.startswith("dlc1.1")
+
+
+def test_our_friction_torque_stands_beside_that_of_catalogues(cube, tmp_path, found):
+    sized = candidates_of("nrel-5mw")["two-spherical"]
+    first = sized["N"]
+    bare = {key: first[key] for key in ("kind", "geometry")}
+    both = compare(
+        scene_of(cube, candidates={
+            "one": {"N": first, "N2": bare},
+            "two": {"N": first, "N2": sized["N2"]},
+        }),
+        out=tmp_path,
+    )  # fmt: skip
+    one, two = (by_name(both)[name].numbers for name in ("one", "two"))
+    torques = ("friction_torque", "palmgren_torque", "skf_torque", "constant_coefficient_torque")
+    assert all(two[name].value > 0 and two[name].unit == "N m" for name in torques)
+    assert math.isnan(one["skf_torque"].value)
+    assert one["skf_torque"].note == "n/a: no constants of these bearings"
+    assert one["friction_torque"].value == pytest.approx(two["friction_torque"].value, rel=1e-9)
+    lost = two["friction"].value * 1e3 / two["friction_torque"].value
+    assert 0.5 < lost < 1.3  # rad/s, the speeds of the loads
+    assert "after SKF, with its constants" in (both.path / "compare.html").read_text("utf-8")
+    film = by_name(found)["journal-cylindrical"].numbers["palmgren_torque"]
+    assert film.note == "n/a: no rolling elements"
 
 
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):

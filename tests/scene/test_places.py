@@ -85,6 +85,30 @@ def test_the_two_forms_give_the_same_scene():
     assert new.digest() == old.digest()
 
 
+@pytest.mark.parametrize("kind", ["four-point", "slewing", None])
+def test_the_former_section_knows_a_four_point_bearing_by_both_its_words(kind):
+    told = {} if kind is None else {"kind": kind}
+    geometry = FOUR_POINT["geometry"] | told
+    former = make_scene(TWO | {"rolling": {"bearing": "M", "geometry": geometry}})
+    assert former.rolling == scene_with(M=FOUR_POINT).rolling
+    further = [{"bearing": "N2", "geometry": SPHERICAL["geometry"] | {"kind": "spherical"}},
+               {"bearing": "M", "geometry": geometry}]  # fmt: skip
+    assert make_scene(TWO | {"rolling": further}).rolling.geometries["M"].kind == "slewing"
+
+
+@pytest.mark.parametrize(
+    ("geometry", "told"),
+    [
+        ({"kind": "four-points"}, "rolling.geometry.*kind must be one of four-point, slewing"),
+        ({"kind": "four-point", "bals": 3}, r"rolling\.geometry\.bals: .*did you mean balls"),
+        ({"kind": "four-point", "rows": 0}, r"rolling\.geometry\.rows = 0"),
+    ],
+)
+def test_what_is_no_four_point_bearing_is_refused_where_it_is_written(geometry, told):
+    with pytest.raises(InputError, match=told):
+        make_scene(TWO | {"rolling": {"geometry": FOUR_POINT["geometry"] | geometry}})
+
+
 def test_results_left_out_are_those_of_the_bearings_that_there_are():
     rooms = {r.split(".")[0] for r in scene_with(M=FOUR_POINT).results}
     assert "rolling" in rooms

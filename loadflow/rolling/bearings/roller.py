@@ -12,6 +12,7 @@ from annotated_types import Ge, Lt
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
+from loadflow.rolling.friction.catalogue import CatalogueKind
 from loadflow.rolling.geometry import FacingRows
 from loadflow.rolling.roller_raceways import RollerRaceways
 
@@ -67,6 +68,11 @@ class RollerBearing(FacingRows, RollerRaceways, BearingOfRollers):
     def rib_guided(self) -> bool:
         """Whether the rollers are tapered, and so pressed on a rib."""
         return self.contact_angle > 0
+
+    @property
+    def catalogue_kind(self) -> CatalogueKind:
+        """Tapered where the rollers have a contact angle."""
+        return "tapered" if self.contact_angle > 0 else "cylindrical"
 
     @property
     def axial_clearance(self) -> float:

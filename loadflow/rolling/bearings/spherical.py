@@ -11,6 +11,7 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths
+from loadflow.rolling.friction.catalogue import CatalogueKind
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 
@@ -64,6 +65,16 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
                 "contact_angle: must lie between 0 and π/2 for two rows and be 0 for one, "
                 f"got {self.contact_angle:g}"
             )
+
+    @property
+    def slides(self) -> bool:
+        """Barrels do: their raceways are spheres."""
+        return True
+
+    @property
+    def catalogue_kind(self) -> CatalogueKind | None:
+        """Of two rows; tables have no constants of barrels in one."""
+        return "spherical" if self.rows == 2 else None
 
     @property
     def row_offset(self) -> float:

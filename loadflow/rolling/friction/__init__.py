@@ -13,7 +13,7 @@ contact_films       film of every roller and ball contact; `options`: lubricant,
 roller_losses       film, Λ and losses of a whole roller bearing in ideal rolling
 ball_losses         the same of ball and slewing bearings; `bearing`: what both share
 heat                temperature at which losses and cooling balance
-catalogue           Stribeck, Palmgren, SKF
+catalogue           Stribeck, Palmgren, SKF; `catalogued`: those of a bearing under its loads
 slewing_torque      slewing bearings, from loads and from ball forces
 ==================  ===========================================================================
 """

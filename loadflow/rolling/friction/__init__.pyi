@@ -4,10 +4,13 @@ from .catalogue import SkfConstants as SkfConstants
 from .catalogue import catalogue_torques as catalogue_torques
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
 from .catalogue import palmgren_load_torque as palmgren_load_torque
+from .catalogue import palmgren_torque as palmgren_torque
 from .catalogue import skf_constants as skf_constants
 from .catalogue import skf_series as skf_series
 from .catalogue import skf_torque as skf_torque
 from .catalogue import stribeck_torque as stribeck_torque
+from .catalogued import CatalogueEntry as CatalogueEntry
+from .catalogued import torques_beside as torques_beside
 from .churning import Churning as Churning
 from .churning import fit_churning as fit_churning
 from .contact_films import ContactFilm as ContactFilm

@@ -13,18 +13,22 @@ chapter Friction (forms of G_rr, G_sl, μ_sl, inlet heating; the constants R, S 
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
+from annotated_types import Ge, Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_choice, check_one_of
+from loadflow.numerics.fields import check_choice, check_fields, check_one_of
 
 Array = NDArray[np.float64]
+CatalogueKind = Literal["cylindrical", "tapered", "spherical"]
+_NotNegative = Annotated[float, Ge(0)]
 _RPM = 30 / np.pi  # rad/s in 1/min
 
 # Palmgren's f₀ of oil-bath or grease lubrication, and f₁ of cylindrical, tapered and spherical
@@ -134,6 +138,42 @@ def palmgren_load_torque(
     return np.asarray(factor * force * pitch_diameter * (force / static_capacity) ** exponent)
 
 
+def palmgren_torque(
+    kind: CatalogueKind,
+    radial: ArrayLike,
+    axial: ArrayLike,
+    speed: ArrayLike,
+    viscosity: ArrayLike,
+    pitch_diameter: float,
+) -> Array:
+    """Palmgren's whole torque M₀ + M₁, N m, (4.32), with `PALMGREN_F0` and `PALMGREN_F1`.
+
+    Parameters
+    ----------
+    kind : {"cylindrical", "tapered", "spherical"}
+        Type of bearing.
+    radial, axial : array_like
+        Magnitudes of the loads, N.
+    speed, viscosity, pitch_diameter
+        As `palmgren_idle_torque`.
+
+    Raises
+    ------
+    InputError
+        If there is no such type.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import palmgren_torque
+    >>> round(float(palmgren_torque("cylindrical", 1e6, 0.0, 1.5, 1e-4, 0.61)))  # N m
+    192
+    """
+    check_one_of("kind", kind, PALMGREN_F1)
+    load = np.hypot(radial, axial)
+    idle = palmgren_idle_torque(speed, viscosity, pitch_diameter, PALMGREN_F0[kind])
+    return np.asarray(idle + palmgren_load_torque(load, pitch_diameter, PALMGREN_F1[kind]))
+
+
 @dataclass(frozen=True, kw_only=True)
 class SkfConstants:
     """Constants of one bearing series; those of SKF's table give `skf_constants`.
@@ -151,6 +191,11 @@ class SkfConstants:
     starvation, geometry : float
         K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, spherical 5.5, tapered 6).
 
+    Raises
+    ------
+    InputError
+        A kind that is none of these, or a negative constant.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import SkfConstants
@@ -159,26 +204,36 @@ class SkfConstants:
     6e-08
     """
 
-    kind: Literal["cylindrical", "tapered", "spherical"]
-    r1: float
-    s1: float
-    s2: float
-    r2: float = 0.0
-    r3: float = 0.0
-    r4: float = 0.0
-    s3: float = 0.0
-    s4: float = 0.0
-    axial_factor: float = 0.0
-    starvation: float = 6e-8
-    geometry: float = 5.1
+    kind: CatalogueKind
+    r1: _NotNegative
+    s1: _NotNegative
+    s2: _NotNegative
+    r2: _NotNegative = 0.0
+    r3: _NotNegative = 0.0
+    r4: _NotNegative = 0.0
+    s3: _NotNegative = 0.0
+    s4: _NotNegative = 0.0
+    axial_factor: _NotNegative = 0.0
+    starvation: _NotNegative = 6e-8
+    geometry: Annotated[float, Gt(0)] = 5.1
 
     def __post_init__(self) -> None:
+        check_fields(self)
         check_choice(self, "kind", ("cylindrical", "tapered", "spherical"))
 
+    def idle(self) -> Iterator[tuple[str, str]]:
+        """Constants that the formulas of the type do not have, and why."""
+        read = {
+            "cylindrical": (),
+            "tapered": ("r2", "axial_factor"),
+            "spherical": ("r2", "r3", "r4", "s3", "s4"),
+        }[self.kind]
+        for name in ("r2", "r3", "r4", "s3", "s4", "axial_factor"):
+            if name not in read:
+                yield name, f"SKF's formulas of {self.kind} rollers have none"
 
-def skf_constants(
-    kind: Literal["cylindrical", "tapered", "spherical"], series: str, axial_factor: float = 0.0
-) -> SkfConstants:
+
+def skf_constants(kind: CatalogueKind, series: str, axial_factor: float = 0.0) -> SkfConstants:
     """Constants of a series from SKF's table, `loadflow/data/skf_friction.toml`.
 
     Parameters
@@ -212,7 +267,7 @@ def skf_constants(
     return SkfConstants(kind=kind, axial_factor=axial_factor, **_skf_table()[kind][series])
 
 
-def skf_series(kind: Literal["cylindrical", "tapered", "spherical"]) -> list[str]:
+def skf_series(kind: CatalogueKind) -> list[str]:
     """Names of the series of a type that SKF's table has.
 
     Examples
@@ -297,7 +352,7 @@ def skf_torque(
 
 
 def catalogue_torques(
-    kind: Literal["cylindrical", "tapered", "spherical"],
+    kind: CatalogueKind,
     radial: ArrayLike,
     axial: ArrayLike,
     speed: ArrayLike,
@@ -328,15 +383,15 @@ def catalogue_torques(
     --------
     >>> spread = catalogue_torques("cylindrical", 1e6, 0.0, 1.5, 1e-4, 0.5, 0.72)
     >>> {name: round(float(torque)) for name, torque in spread.items()}
-    {'constant coefficient': 275, 'palmgren': 192}
+    {'palmgren': 192, 'constant coefficient': 275}
     """
-    check_one_of("kind", kind, PALMGREN_F1)
     fr, fa = np.asarray(radial, float), np.asarray(axial, float)
-    load, mean = np.hypot(fr, fa), (bore + outside_diameter) / 2
-    idle = palmgren_idle_torque(speed, viscosity, mean, PALMGREN_F0[kind])
+    mean = (bore + outside_diameter) / 2
     torques = {
-        "constant coefficient": stribeck_torque(load, bore, FRICTION_COEFFICIENTS[kind]),
-        "palmgren": idle + palmgren_load_torque(load, mean, PALMGREN_F1[kind]),
+        "palmgren": palmgren_torque(kind, fr, fa, speed, viscosity, mean),
+        "constant coefficient": stribeck_torque(
+            np.hypot(fr, fa), bore, FRICTION_COEFFICIENTS[kind]
+        ),
     }
     if series is not None:
         torques["skf"] = sum(

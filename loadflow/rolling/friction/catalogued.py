@@ -1,0 +1,200 @@
+"""Torque that catalogues give a bearing, under the loads of its equilibrium, beside our own."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Annotated
+
+import numpy as np
+from annotated_types import Gt
+from numpy.typing import ArrayLike, NDArray
+
+from loadflow.errors import InputError
+from loadflow.numerics.fields import check_fields, check_one_of
+from loadflow.rolling.friction.catalogue import (
+    CatalogueKind,
+    SkfConstants,
+    catalogue_torques,
+    palmgren_torque,
+    skf_constants,
+    skf_series,
+)
+from loadflow.rolling.friction.options import FrictionOptions
+
+if TYPE_CHECKING:
+    from loadflow.rolling.geometry import RollingGeometry
+    from loadflow.rolling.results import ContactResult
+
+Array = NDArray[np.float64]
+_BATH, _GREASE = 3e-8, 6e-8  # K_rs of SKF: tracks refill sooner from a bath of oil than from grease
+
+
+@dataclass(frozen=True, kw_only=True)
+class CatalogueEntry:
+    """What a catalogue says of a bearing beside what its geometry tells.
+
+    Attributes
+    ----------
+    bore, outside_diameter : float
+        d and D, m.
+    series : str, optional
+        Of SKF's table, one of `skf_series`: "240" of a spherical bearing 240/600.
+    axial_factor : float, optional
+        Y of one row of tapered rollers; 0.4 cot α of ISO 281 where it is left out.
+    constants : SkfConstants, optional
+        In place of a series.
+
+    Raises
+    ------
+    InputError
+        A field out of its range, series and constants at once, or an `axial_factor` without
+        series.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.friction import CatalogueEntry
+    >>> CatalogueEntry(bore=0.6, outside_diameter=0.87, series="240").series
+    '240'
+    """
+
+    bore: Annotated[float, Gt(0)]
+    outside_diameter: Annotated[float, Gt(0)]
+    series: str | None = None
+    axial_factor: Annotated[float, Gt(0)] | None = None
+    constants: SkfConstants | None = None
+
+    def __post_init__(self) -> None:
+        check_fields(self)
+        if self.outside_diameter <= self.bore:
+            raise InputError(
+                f"outside_diameter: must be > bore {self.bore:g} m, got {self.outside_diameter:g}"
+            )
+        if self.series is not None and self.constants is not None:
+            raise InputError("series, constants: keep one of them")
+        if self.axial_factor is not None and self.series is None:
+            raise InputError("axial_factor: give a series with it; constants have their own")
+
+    def check(self, bearing: RollingGeometry) -> None:
+        """Refuse a bearing that is not one of this entry.
+
+        Raises
+        ------
+        InputError
+            A kind that these catalogues do not know, diameters within its raceways, a series or
+            constants of another type, an `axial_factor` of rollers that are not tapered.
+        """
+        kind = bearing.catalogue_kind
+        if kind is None:
+            raise InputError(
+                "kind: Palmgren's and SKF's constants here are of cylindrical, tapered and "
+                f"double-row spherical rollers, not of this {type(bearing).__name__}; leave it out"
+            )
+        across = bearing.element_diameter * math.cos(bearing.nominal_angle)
+        inner, outer = bearing.pitch_diameter - across, bearing.pitch_diameter + across
+        if self.bore >= inner:
+            raise InputError(f"bore: must be < {inner:g} m, the inner raceway, got {self.bore:g}")
+        if self.outside_diameter <= outer:
+            raise InputError(
+                f"outside_diameter: must be > {outer:g} m, the outer raceway, "
+                f"got {self.outside_diameter:g}"
+            )
+        if self.series is not None:
+            check_one_of(f"series of {kind} rollers", self.series, skf_series(kind))
+        if self.constants is not None and self.constants.kind != kind:
+            raise InputError(
+                f'constants.kind: must be "{kind}" as the rollers are, got "{self.constants.kind}"'
+            )
+        if self.axial_factor is not None and kind != "tapered":
+            raise InputError(
+                f"axial_factor: Y is left out for {kind} rollers; of tapered ones only"
+            )
+
+    def skf(self, bearing: RollingGeometry, greased: bool) -> SkfConstants | None:
+        """Constants of SKF's model for a bearing with grease or oil; None if none are stated."""
+        if self.series is None:
+            return self.constants
+        kind = bearing.catalogue_kind
+        assert kind is not None
+        factor = 0.0
+        if kind == "tapered":
+            factor = self.axial_factor or 0.4 / math.tan(bearing.nominal_angle)
+        found = skf_constants(kind, self.series, factor)
+        return replace(found, starvation=_GREASE if greased else _BATH)
+
+
+def torques_beside(
+    result: ContactResult[RollingGeometry],
+    speed: ArrayLike,
+    options: FrictionOptions,
+    entry: CatalogueEntry | None = None,
+) -> dict[str, Array]:
+    """Torque of a loaded bearing after each catalogue, N m, beside that of `result.friction`.
+
+    Catalogues rate single rows of cylindrical and tapered rollers: each row has the force on its
+    own rollers, preload and tilt with it, and the rows add up. Spherical bearings are rated whole,
+    with the force on the bearing. Torques are those of a bearing that turns; seals and drag of the
+    oil are not in them.
+
+    Parameters
+    ----------
+    result : RollingEquilibrium
+        Under load cases (...).
+    speed : array_like
+        rad/s; broadcasts with the load cases.
+    options : FrictionOptions
+        Oil and temperature.
+    entry : CatalogueEntry, optional
+        Adds what needs its diameters and its series; Palmgren's formula alone has enough in the
+        pitch diameter.
+
+    Returns
+    -------
+    dict of str to ndarray
+        "palmgren", with an entry "constant coefficient", with a series or constants "skf"; empty
+        where catalogues have nothing on the kind of bearing.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import FrictionOptions, SphericalRollerBearing
+    >>> from loadflow.rolling.friction import CatalogueEntry, torques_beside
+    >>> from loadflow.tribology import lubricant
+    >>> bearing = SphericalRollerBearing(rollers=28, roller_diameter=0.08, roller_length=0.12,
+    ...     pitch_diameter=0.95, contact_angle=0.17)
+    >>> loaded = bearing.equilibrium((1e6, 0.0, 2e5))
+    >>> options = FrictionOptions(oil=lubricant("lgep-2"), temperature=313.15)
+    >>> entry = CatalogueEntry(bore=0.75, outside_diameter=1.15, series="240")
+    >>> found = torques_beside(loaded, 1.3, options, entry)
+    >>> {name: round(float(torque)) for name, torque in found.items()}
+    {'palmgren': 563, 'constant coefficient': 688, 'skf': 569}
+    """
+    bearing = result.bearing
+    kind = bearing.catalogue_kind
+    if kind is None:
+        return {}
+    radial, axial = _rated_loads(result, kind)
+    turning = np.asarray(speed, float)[..., None]
+    viscosity = options.oil.kinematic_viscosity(options.temperature)
+    if entry is None:
+        pitch = bearing.pitch_diameter
+        rows = {"palmgren": palmgren_torque(kind, radial, axial, turning, viscosity, pitch)}
+    else:
+        constants = entry.skf(bearing, greased=bool(options.oil.thickener))
+        size = entry.bore, entry.outside_diameter
+        rows = catalogue_torques(kind, radial, axial, turning, viscosity, *size, constants)
+    return {name: np.asarray(torque.sum(axis=-1)) for name, torque in rows.items()}
+
+
+def _rated_loads(
+    result: ContactResult[RollingGeometry], kind: CatalogueKind
+) -> tuple[Array, Array]:
+    """Radial and axial load of each part of a bearing that catalogues rate, N, (..., part)."""
+    if kind == "spherical":
+        x, y, z = np.moveaxis(result.force, -1, 0)
+        return np.hypot(x, y)[..., None], np.abs(z)[..., None]
+    forces, angle = result.element_forces, result.bearing.nominal_angle
+    turned = np.exp(1j * result.element_azimuth)
+    return (
+        np.abs((forces * turned).sum(axis=-1)) * math.cos(angle),
+        forces.sum(axis=-1) * math.sin(angle),
+    )

@@ -1,0 +1,89 @@
+"""Keys of rolling bearings and of their friction that change nothing in a scene, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from loadflow.rolling import RollerBearing, SphericalRollerBearing
+from loadflow.rolling.friction import CatalogueEntry
+from loadflow.rolling.mounting import unused_of
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.candidates import candidates_of
+from loadflow.scene.scene import Scene
+from loadflow.scene.section import keys_of
+
+
+def of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Keys of any of the rolling bearings, which stand in a list after the first one."""
+    for number, part in enumerate(scene.rolling.bearings.values(), -1):
+        where = "rolling" if number < 0 else f"rolling.further.{number}"
+        if part.geometry.element != "roller" and "roller_model" in part.model_fields_set:
+            yield f"{where}.roller_model", f"a {part.geometry.kind} bearing has no rollers"
+        unread = "rolling.friction" not in scene.results
+        if part.catalogue is not None and unread and not _comes_with(scene, part.catalogue):
+            yield f"{where}.catalogue", "the result rolling.friction is not wanted"
+        for ring, reason in _of_rings(scene, part):
+            yield f"{where}.{ring}", reason
+        for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
+            yield f"{where}.mounting.{key}", reason
+
+
+def _comes_with(scene: Scene, entry: CatalogueEntry) -> bool:
+    """Whether an entry is one of the bearings that are sized for the turbine: nobody stated it."""
+    sized = candidates_of(scene.turbine.name).values()
+    parts = (part for one in sized for part in one.values() if isinstance(part, dict))
+    return any(
+        "catalogue" in part and entry == CatalogueEntry(**part["catalogue"]) for part in parts
+    )
+
+
+def _of_rings(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
+    reason = ""
+    if not part.geometry.flexible_rings:
+        reason = f"a {part.geometry.kind} bearing has rigid rings only"
+    elif part.rings == "rigid" and (not scene.asks or "rings" in part.model_fields_set):
+        reason = 'rings = "rigid"'
+    for key in ("inner_ring", "outer_ring") if reason else ():
+        if getattr(part, key) not in (None, keys_of(part)[key]):
+            yield key, reason
+
+
+def mounted(scene: Scene) -> bool:
+    """Whether a bearing of the scene, or of a candidate, has a clearance that follows its heat."""
+    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
+    every = (part for rolling in (scene.rolling, *others) for part in rolling.bearings.values())
+    return any(part.mounting is not None for part in every)
+
+
+_OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
+"""Keys of friction that the modified life reads, too."""
+
+
+def _balances(part: FurtherBearing) -> bool:
+    return part.geometry.friction_model is not None and part.oscillation is None
+
+
+def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Yield the keys of friction that the rest of a scene leaves without effect, and why."""
+    friction, bearings = scene.friction, scene.rolling.geometries.values()
+    if "rolling.friction" not in scene.results:
+        for key in type(friction).model_fields:
+            if key not in _OF_LIFE:
+                yield key, "the result rolling.friction is not wanted"
+    if friction.conductance is None and not mounted(scene):
+        yield "ambient_temperature", "no friction.conductance, no mounting of a bearing"
+    elif all(_balances(part) for part in scene.rolling.bearings.values()):
+        yield "temperature", "with a conductance each bearing has that of its heat balance"
+    if "rolling.friction" not in scene.results:
+        return
+    rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
+    ribs = ("rib_height", "rib_radius", "rib_friction")
+    if not rollers:
+        for key in ("rib_angle", *ribs):
+            yield key, "no bearing of this scene has rollers on ribs"
+    elif friction.rib_angle == 0.0 or (
+        friction.rib_angle is None
+        and not any(isinstance(b, RollerBearing) and b.contact_angle > 0 for b in rollers)
+    ):
+        for key in ribs:
+            yield key, "the rollers press on no rib: friction.rib_angle is 0"
