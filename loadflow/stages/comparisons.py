@@ -18,6 +18,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
+from loadflow.stages.film_past import past_of
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
@@ -229,11 +230,12 @@ def _orbits(
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
         begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
         place, steps = film["eccentricity"].values[begin], min(STEPS, film.sizes["sample"] - begin)
-        # taken up in the middle, a film has no past: what it does before it has one is no answer
-        known = STEPS // 4 if begin > formed else 0
         stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
-        known = max(known, 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin)
+        known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
         steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
+        # taken up in the middle, a film has no past: what it does before it has one is no answer
+        if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
+            known = max(known, min(STEPS // 4, steps // 2))
         ours = film.isel(sample=slice(begin, begin + steps))
         series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
         loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
@@ -266,7 +268,7 @@ def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
         film = parts["journal"][bearing].to_dataset().load()
         loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
         try:
-            path = follow(journal, loads, shaft)
+            path = follow(journal, loads, shaft, past=past_of(scene, loads))
         except SolverError:
             continue
         ours = {quantity: extremes_of_orbit(film)[quantity] for quantity in EXTREMES}
