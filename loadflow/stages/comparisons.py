@@ -25,7 +25,7 @@ from loadflow.stages.journal import fast_film
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
-from loadflow.stages.running_time import counted
+from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
 from loadflow.stages.thrust import samples_of, solved
@@ -260,7 +260,7 @@ def _running_ratio(film: xr.Dataset) -> np.ndarray:
 
 
 def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    """The whole series with the film in motion, where that is cheap; a shaft at rest has none."""
+    """The series with the film in motion, where that is cheap, as far as the rotor runs."""
     for bearing in _answered(parts):
         journal = fast_film(scene.journal.at(bearing))
         if journal is None:
@@ -271,11 +271,13 @@ def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
             path = follow(journal, loads, shaft, past=past_of(scene, loads))
         except SolverError:
             continue
-        ours = {quantity: extremes_of_orbit(film)[quantity] for quantity in EXTREMES}
-        where = f"{case.name}, {bearing}"
-        yield from _rows(
-            MOTION.name, "journal.film", where, "the film in motion", ours, extremes_of_orbit(path)
+        runs = running(scene, loads)
+        ours, theirs = (
+            extremes_of_orbit(track)
+            for track in (film.where(counted(film)), path.where(runs | ~runs.any()))
         )
+        kept, where = {quantity: ours[quantity] for quantity in EXTREMES}, f"{case.name}, {bearing}"
+        yield from _rows(MOTION.name, "journal.film", where, "the film in motion", kept, theirs)
 
 
 def extremes_of_orbit(path: xr.Dataset, begin: int = 0) -> dict[str, float]:

@@ -88,3 +88,13 @@ def test_a_rotor_that_never_runs_is_compared_all_the_same():
     parts["journal"] = stage.film(scene, CASE, parts)
     assert not parts["journal"]["N"]["running"].values.any()
     assert np.isfinite(film_errors(scene, parts)["minimum film"])
+
+
+def test_films_in_motion_and_at_rest_are_compared_while_the_rotor_runs():
+    scene, speeds = scene_of(), np.concatenate([np.full(200, 1.2), np.full(600, 0.003)])
+    parts = stop(speeds, swing=1e5)
+    parts["journal"] = stage.film(scene, CASE, parts)
+    rows = compare(scene, CASE, parts)
+    found = {row.quantity: row.value for row in rows if row.against == "the film in motion"}
+    assert parts["journal"]["N"]["in_contact"].values.any()
+    assert 0.0 < found["minimum film"] < 0.5
