@@ -192,7 +192,14 @@ class JournalBearing(JournalGeometry):
         Returns
         -------
         FilmField
-            With heat a `FilmHeatField`.
+            With heat a `FilmHeatField`. The cells are those of an equilibrium there: `force` is the
+            load that `equilibrium` carries at this position. Where they are graded for some of many
+            positions, pressure, fill and gap of all are shown on as many.
+
+        Warns
+        -----
+        ValidityWarning
+            The cells do not resolve the film.
 
         Raises
         ------

@@ -81,8 +81,9 @@ class Film:
         Default (60, 20) for the gas mixture, (120, 40) else.
     grading : {"auto", "uniform", "graded"}
         Uniform cells, or cells that crowd at the narrowest gap and the bearing ends. "auto":
-        uniform for the gas mixture and with a supply, graded else. A load so heavy that a few
-        uniform cells span the narrowest gap is then solved on a graded mesh.
+        uniform for the gas mixture and with a supply, graded else. Where a few uniform cells span
+        the narrowest gap, under a heavy load or at a given position, the film is then solved on a
+        graded mesh.
     shell : LocalShell, LinedShell, ThickShell, MatrixShell, HousedShell or InfluenceShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
     heat : Heat or FilmHeat, optional

@@ -104,22 +104,25 @@ def without_supply(count: int) -> dict[str, Any]:
 
 
 def field_row(film: DiscreteFilm, gap: BoreGap, solution: Solution) -> dict[str, Any]:
-    """One row of `FilmField`, but for z, of a film and its `gap`; the half film is mirrored."""
-    *cells, angle, load = film.field(solution.u, solution.position)
-    cells += [film.deformation, _mean_gap(film, gap.arcs(solution.position))]
-    if film.mesh.half:
-        cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
-    pressure, fill, deformation, heights = cells
+    """One row of `FilmField`, but for z, of a film and its `gap`."""
+    cells = field_cells(film, gap, solution.u, solution.position)
+    load = film.load_of(film.gap.place(solution.position), solution.position)
     return {
         "film_force": -load[:2],
         "force": load[:2],
-        "pressure": pressure,
-        "fill": fill,
-        "deformation": deformation,
-        "gap": heights,
-        "angle": angle,
+        **cells,
         **_common_row(film, gap, solution, None),
     }
+
+
+def field_cells(film: DiscreteFilm, gap: BoreGap, u: Array, position: Array) -> dict[str, Any]:
+    """What `FilmField` says of the cells at `u` and `position`; the half film is mirrored."""
+    *cells, angle, _ = film.field(u, position)
+    cells += [film.deformation, _mean_gap(film, gap.arcs(position))]
+    if film.mesh.half:
+        cells = [np.concatenate([values[:, ::-1], values], axis=1) for values in cells]
+    names = ("pressure", "fill", "deformation", "gap")
+    return {**dict(zip(names, cells)), "angle": angle}
 
 
 def _mean_gap(film: DiscreteFilm, arcs: Array) -> Array:

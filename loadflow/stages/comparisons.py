@@ -18,12 +18,14 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
+from loadflow.stages.film_past import past_of
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
+from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
 from loadflow.stages.thrust import samples_of, solved
@@ -195,10 +197,14 @@ def _warmer(options: Journal, film: xr.Dataset) -> Journal:
 def _films(
     scene: Scene, case: Case, parts: Parts, stage: str, against: str, options: dict[str, Journal]
 ) -> Iterator[Difference]:
-    """Equilibria of a few samples."""
+    """Equilibria of a few samples.
+
+    Of those in which the rotor runs: as it comes to a stand, films get as thin as any cells fail to
+    resolve, until the surfaces touch, and what is asked of them there is when they do.
+    """
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
-        places = _spread(film["eccentricity_ratio"].values)
+        places = _spread(_running_ratio(film))
         some = film.isel(sample=places)
         loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
         line = shaft_line(scene.journal, loads)
@@ -211,19 +217,27 @@ def _films(
 def _orbits(
     scene: Scene, case: Case, parts: Parts, stage: str, against: str, options: dict[str, Journal]
 ) -> Iterator[Difference]:
-    """A stretch of the orbit around its largest eccentricity, from the place where it begins."""
+    """A stretch of the orbit around its largest eccentricity, from the place where it begins.
+
+    Of it count the samples around that in which the rotor runs, as in `_films`.
+    """
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
-        worst = int(np.nanargmax(film["eccentricity_ratio"].values))
+        runs = _running_ratio(film)
+        worst = int(np.nanargmax(runs))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
         begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
-        stretch, place = slice(begin, begin + STEPS), film["eccentricity"].values[begin]
-        ours = film.isel(sample=stretch)
+        place, steps = film["eccentricity"].values[begin], min(STEPS, film.sizes["sample"] - begin)
+        stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
+        known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
+        steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
         # taken up in the middle, a film has no past: what it does before it has one is no answer
-        known = STEPS // 4 if begin > formed else 0
-        series = slice(begin * taken, (begin + STEPS - 1) * taken + 1, finer)
+        if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
+            known = max(known, min(STEPS // 4, steps // 2))
+        ours = film.isel(sample=slice(begin, begin + steps))
+        series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
         loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
         try:
             path = follow(better, loads, shaft.sel(bearing=bearing), place)
@@ -235,8 +249,18 @@ def _orbits(
         yield from _rows(stage, "journal.film", where, against, found, theirs)
 
 
+def _running_ratio(film: xr.Dataset) -> np.ndarray:
+    """Eccentricity ratio of the samples in which the rotor runs, where some have one; else NaN.
+
+    Without any such sample that of all.
+    """
+    ratio = film["eccentricity_ratio"]
+    running = ratio.where(counted(film))
+    return np.asarray((running if running.notnull().any() else ratio).values)
+
+
 def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    """The whole series with the film in motion, where that is cheap; a shaft at rest has none."""
+    """The series with the film in motion, where that is cheap, as far as the rotor runs."""
     for bearing in _answered(parts):
         journal = fast_film(scene.journal.at(bearing))
         if journal is None:
@@ -244,14 +268,16 @@ def _motion(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
         film = parts["journal"][bearing].to_dataset().load()
         loads, shaft = parts["loads"].load(), parts["shaft"].sel(bearing=bearing).load()
         try:
-            path = follow(journal, loads, shaft)
+            path = follow(journal, loads, shaft, past=past_of(scene, loads))
         except SolverError:
             continue
-        ours = {quantity: extremes_of_orbit(film)[quantity] for quantity in EXTREMES}
-        where = f"{case.name}, {bearing}"
-        yield from _rows(
-            MOTION.name, "journal.film", where, "the film in motion", ours, extremes_of_orbit(path)
+        runs = running(scene, loads)
+        ours, theirs = (
+            extremes_of_orbit(track)
+            for track in (film.where(counted(film)), path.where(runs | ~runs.any()))
         )
+        kept, where = {quantity: ours[quantity] for quantity in EXTREMES}, f"{case.name}, {bearing}"
+        yield from _rows(MOTION.name, "journal.film", where, "the film in motion", kept, theirs)
 
 
 def extremes_of_orbit(path: xr.Dataset, begin: int = 0) -> dict[str, float]:

@@ -8,10 +8,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.journal import Control, Equilibrium, Film
 from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
+from loadflow.stages.film_past import AT_REST, Past
 from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
@@ -20,22 +22,38 @@ _IN_MOTION = Control(tolerance=1e-6)  # 1e-8 moves films by 4e-5 at most, for an
 
 
 def follow(
-    options: Journal, loads: xr.Dataset, bearing: xr.Dataset, start: np.ndarray | None = None
+    options: Journal,
+    loads: xr.Dataset,
+    bearing: xr.Dataset,
+    start: np.ndarray | None = None,
+    past: Past = AT_REST,
 ) -> xr.Dataset:
     """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
+
+    With a `past` it goes through that before; where a film cannot be followed there, it begins at
+    rest under the first load.
 
     With heat the result has the `temperature` of the film: that of the whole series, or one that
     follows where heat is stored. A shaft with `tilt` lies as its beam says, or tilts freely.
     """
-    force = to_film(bearing["force"].transpose("time", "axis").values.astype(float))
-    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    lying: dict[str, Any] = {
-        name: to_film(vectors) for name, vectors in shaft_line(options, bearing).items()
-    }
-    with unresolved_counted():  # `film_summary` tells of them
-        return options.geometry.orbit(
-            time, force, speed, options.film_model, start=start, control=_IN_MOTION, **lying
-        )
+    series = {name: loads[name].values.astype(float) for name in ("time", "speed")}
+    force = bearing["force"].transpose("time", "axis").values.astype(float)
+    vectors = {"force": force, **shaft_line(options, bearing)}
+    series |= {name: to_film(rows) for name, rows in vectors.items()}
+
+    def path(past: Past) -> xr.Dataset:
+        given: dict[str, Any] = past.before(series)
+        film = options.film_model
+        with unresolved_counted():  # `film_summary` tells of them
+            found = options.geometry.orbit(**given, film=film, start=start, control=_IN_MOTION)
+        return found.isel(time=slice(past.steps, None))
+
+    try:
+        return path(past)
+    except SolverError:
+        if not past.steps:
+            raise
+        return path(AT_REST)
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:

@@ -21,6 +21,7 @@ from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.stages.film_kept import RESOLVED, kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
+from loadflow.stages.film_past import AT_REST, past_of
 from loadflow.stages.film_summary import summary, warnings
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
@@ -78,7 +79,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
         {
             bearing: with_running(
                 scene,
-                _moving(scene.journal.at(bearing), bearing, loads, shaft.sel(bearing=bearing)),
+                _moving(scene, bearing, loads, shaft.sel(bearing=bearing)),
             )
             for bearing in scene.journal.bearings
         }
@@ -173,8 +174,9 @@ def _bounds(path: xr.Dataset) -> dict[str, float]:
     return {name: path.attrs[name] for name in RESOLVED if name in path.attrs}
 
 
-def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
+def _moving(scene: Scene, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
+    options = scene.journal.at(bearing)
     every = slice(None, None, options.every(time_step(loads)))
     loads, reactions = loads.isel(time=every), reactions.isel(time=every)
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
@@ -186,7 +188,8 @@ def _moving(options: Journal, bearing: str, loads: xr.Dataset, reactions: xr.Dat
     about: dict[str, float] = {}
     if begin < time.size:
         try:
-            path = follow(options, loads.isel(time=left), reactions.isel(time=left), start)
+            past = AT_REST if begin else past_of(scene, loads)
+            path = follow(options, loads.isel(time=left), reactions.isel(time=left), start, past)
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)

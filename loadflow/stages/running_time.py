@@ -21,10 +21,15 @@ def with_running(scene: Scene, samples: xr.Dataset) -> xr.Dataset:
     samples : xarray.Dataset
         ``speed``, rad/s, over ``sample``.
     """
+    runs = running(scene, samples)
+    return samples.assign(running=runs.assign_attrs(label("1", "whether the rotor runs")))
+
+
+def running(scene: Scene, samples: xr.Dataset) -> xr.DataArray:
+    """Whether the rotor neither stands nor idles in `samples` of its speed, rad/s."""
     from loadflow.turbines import load_turbine
 
-    runs = ~standing(samples, load_turbine(scene.turbine.name).rated_speed)
-    return samples.assign(running=runs.assign_attrs(label("1", "whether the rotor runs")))
+    return ~standing(samples, load_turbine(scene.turbine.name).rated_speed)
 
 
 def counted(samples: xr.Dataset) -> xr.DataArray | bool:

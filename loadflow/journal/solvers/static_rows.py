@@ -11,7 +11,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.rows import field_row, static_row
+from loadflow.journal.rows import field_cells, field_row, static_row
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
@@ -62,7 +62,9 @@ def field_rows(
 ) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells, m.
 
-    `places` (n, 2) are in clearances, `velocities` (n, 2) in clearances per second.
+    `places` (n, 2) are in clearances, `velocities` (n, 2) in clearances per second. Each film is
+    solved on the cells on which an equilibrium would be there; if those of some are graded, all are
+    shown on as many.
 
     Raises
     ------
@@ -74,10 +76,25 @@ def field_rows(
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
     fastest = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
     statics = Statics(bearing, options, line, float(fastest.max()))
+    suited = [statics.suited(place) for place in places]
+    shown = next((used for used in suited if used is not statics), statics)
     rows = []
-    for index, (place, moving, omega) in enumerate(zip(places, velocities, speeds.tolist())):
-        solution = statics.hold(index, place, moving, omega, control)
+    for index, (used, omega) in enumerate(zip(suited, speeds.tolist())):
+        solution = used.hold(index, places[index], velocities[index], omega, control)
         if not solution.converged and control.strict:
-            raise SolverError(f"film {index}: {statics.message(solution)}")
-        rows.append(field_row(statics.film, statics.gap, solution))
-    return rows, statics.film.mesh.z * bearing.radius
+            raise SolverError(f"film {index}: {used.message(solution)}")
+        row = field_row(used.film, used.gap, solution)
+        rows.append(row if used is shown else row | _cells_of(shown, used, solution))
+    return rows, shown.film.mesh.z * bearing.radius
+
+
+def _cells_of(shown: Statics, own: Statics, solution: Solution) -> dict[str, Any]:
+    """Cells of a film, solved on its `own` mesh, as they lie on that of `shown`."""
+    mesh, film, place = own.film.mesh, shown.film, solution.position
+    ends = np.full(mesh.shape[0], own.film.unknown_of(np.array(own.film.p_edge)))
+    lines = np.column_stack([solution.u, ends])
+    angles, old = film.mesh.angles(place), mesh.angles(place)
+    around = [np.interp(angles, old, values, period=2.0 * np.pi) for values in lines.T]
+    z = np.append(mesh.z, mesh.z_edges[-1])
+    u = np.array([np.interp(film.mesh.z, z, values) for values in np.transpose(around)])
+    return field_cells(film, shown.gap, u, place)

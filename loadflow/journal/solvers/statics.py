@@ -102,6 +102,10 @@ class Statics:
         """The same on a graded mesh."""
         return self._on(self.options.graded())
 
+    def suited(self, position: Array) -> Statics:
+        """The film on cells that resolve the gap at `position`: these, or where allowed, graded."""
+        return self.finer if self.can_refine and not self.film.resolves(position) else self
+
     def _on(self, options: Film, crowd: tuple[float, ...] | None = None) -> Statics:
         """The same on another mesh, to the same scale."""
         other = Statics(self.bearing, options, self.line, self.rate, crowd)
@@ -132,7 +136,7 @@ class Statics:
         """
         refine = self.can_refine
         solution = self.solve(index, load, omega, last, control, in_steps=not refine)
-        resolved = not refine or self.film.resolves(solution.position)
+        resolved = self.suited(solution.position) is self
         if (solution.converged and resolved) or not self._carries(self._force(index, load)):
             return self, solution
         if refine:

@@ -1,0 +1,74 @@
+"""A past for films in motion: loads that go before a series, whose film is not kept.
+
+A film at rest under the first load has carried it for ever: its pressure may be the largest of all,
+its gap the narrowest. A film forgets how it began within about two turns of the shaft.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.cube import time_step
+from loadflow.numerics.prediction import foretell_past
+from loadflow.scene.scene import Scene
+from loadflow.stages.running_time import running
+
+Floats = NDArray[np.float64]
+
+TURNS = 2
+"""Turns of the shaft that go before a series."""
+
+KNOWN = 10
+"""Turns at its begin from which they are foretold, with one turn of memory."""
+
+
+@dataclass(frozen=True)
+class Past:
+    """How much goes before a series: `steps`, foretold with `memory` from the first `known` steps.
+
+    Without steps a film begins at rest.
+    """
+
+    steps: int = 0
+    memory: int = 0
+    known: int = 0
+
+    def before(self, series: dict[str, Floats]) -> dict[str, Floats]:
+        """Put a past before series (n, …), each of which may be "time", all foretold together."""
+        time = series["time"]
+        if not self.steps:
+            return series
+        names = [name for name in series if name != "time"]
+        tables = [np.reshape(series[name], (time.size, -1)) for name in names]
+        known = np.concatenate(tables, axis=1)[: self.known]
+        past = foretell_past(known, self.memory, self.steps)
+        columns = np.cumsum([table.shape[1] for table in tables])[:-1]
+        parts = zip(names, np.split(past, columns, axis=1))
+        earlier = time[0] - (time[1] - time[0]) * np.arange(self.steps, 0, -1)
+        return {"time": np.concatenate([earlier, time])} | {
+            name: np.concatenate([part.reshape(-1, *series[name].shape[1:]), series[name]])
+            for name, part in parts
+        }
+
+
+AT_REST = Past()
+"""None: the film begins at rest under the first load."""
+
+
+def past_of(scene: Scene, loads: xr.Dataset) -> Past:
+    """Past of a film under `loads`: two turns, where the rotor runs at first, else none.
+
+    A rotor that stands or idles at first has the film at rest that it really has.
+    """
+    runs = running(scene, loads).values
+    still = np.flatnonzero(~runs)
+    length = int(still[0]) if still.size else runs.size
+    if length < 4:  # too short to foretell from
+        return AT_REST
+    turn = 2.0 * np.pi / (np.abs(loads["speed"].values[:length]).mean() * time_step(loads))
+    known = min(length, round(KNOWN * turn))
+    return Past(round(TURNS * turn), min(round(turn), known // 3), known)
