@@ -18,7 +18,7 @@ def view(
 ) -> None:
     """Open a dashboard on a run in the browser: local, without a network.
 
-    It needs the extra: pip install loadflow[view].
+    It needs the extra: pip install loadflow\\[view].
     """
     from loadflow.running.dashboard import serve
 
