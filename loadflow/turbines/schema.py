@@ -13,7 +13,7 @@ from .checks import NotNegative, Positive, require, require_ranges
 from .control import COMMON_PRACTICE, Control, Supervision
 from .tower import Tower
 
-_Inclination = Annotated[float, Gt(-0.35), Lt(0.35)]
+Inclination = Annotated[float, Gt(-0.35), Lt(0.35)]
 
 _POWER_OF_AREA = 20.0, 2000.0
 """Rated power over the rotor's area, W/m², far beyond what is built (200 … 550): outside, power or
@@ -47,8 +47,8 @@ class RotorGeometry:
     blades: Annotated[int, Ge(1), Le(6)]
     hub_height: Positive
     overhang: Positive
-    tilt: _Inclination
-    cone: _Inclination
+    tilt: Inclination
+    cone: Inclination
     hub_mass: NotNegative
     hub_inertia: NotNegative
 
