@@ -39,6 +39,23 @@ def test_init_writes_a_scene_that_is_valid(tmp_path, capsys):
     assert "quick_look" in told
 
 
+def test_a_scene_on_load_files_is_told_with_the_option_that_names_them(tmp_path, capsys):
+    path = tmp_path / "own.toml"
+    assert "compare own.toml --loads" in call(
+        capsys, "init", "openfast", "-o", str(path)
+    ).out.replace(f"{tmp_path}/", "")
+    assert "--loads 'path/to/*.outb'" in call(capsys, "plan", str(path), code=2).err
+
+
+def test_a_pattern_of_load_files_needs_no_quotes(tmp_path, capsys):
+    path = tmp_path / "own.toml"
+    call(capsys, "init", "openfast", "-o", str(path))
+    files = [str(tmp_path / name) for name in ("a_dlc11_v8_s1.outb", "a_dlc11_v12_s1.outb")]
+    told = call(capsys, "plan", "--loads", *files, str(path), code=2).err
+    assert "a_dlc11_v8_s1.outb" in told  # which does not exist, and is no argument too many
+    assert "unexpected" not in told
+
+
 @pytest.mark.parametrize("name", templates())
 def test_every_template_says_what_it_is_and_takes_a_name(name):
     assert templates()[name]

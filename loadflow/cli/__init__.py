@@ -118,7 +118,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     _print_on_any_code_page()
     try:
         with stoppable(), warnings_in_a_line():
-            app(arguments)
+            app(_each_file_of_loads(sys.argv[1:] if arguments is None else arguments))
     except InputError as error:
         err.print(f"[red]error:[/] {_plain(error)}", soft_wrap=True)
         sys.exit(2)
@@ -128,6 +128,19 @@ def main(arguments: Sequence[str] | None = None) -> None:
     except Stopped as stop:
         tell_stopped(stop.number)
         leave(stop.code)
+
+
+def _each_file_of_loads(arguments: Sequence[str]) -> list[str]:
+    """``--loads`` before each of its files: a shell makes several of a pattern without quotes."""
+    told: list[str] = []
+    of_loads = False
+    for one in arguments:
+        if one.startswith("-"):
+            of_loads = one == "--loads"
+        elif of_loads and told[-1] != "--loads" and not one.endswith(".toml"):  # that is a scene
+            told.append("--loads")
+        told.append(one)
+    return told
 
 
 def _print_on_any_code_page() -> None:

@@ -103,16 +103,16 @@ def init(
     overwrite: Overwrite = False,
 ) -> None:
     """Write a scene to begin with."""
+    from loadflow.scene.scene import read_scene
     from loadflow.scene.templates import template_text
 
     check_free(output, overwrite)
     text = template_text(template, name=output.stem)
     output.write_text(text, encoding="utf-8")
-    out.print(
-        f"{output}: a copy of {template}; next:\n  loadflow plan {output}\n"
-        f"  loadflow run {output}\n  loadflow compare {output}",
-        soft_wrap=True,
-    )
+    loads = read_scene(output).loads
+    given = " --loads 'path/to/*.outb'" if loads.source == "files" and not loads.files else ""
+    steps = [f"  loadflow {verb} {output}{given}" for verb in ("plan", "run", "compare")]
+    out.print("\n".join([f"{output}: a copy of {template}; next:", *steps]), soft_wrap=True)
 
 
 @app.command("list")

@@ -44,7 +44,7 @@ def design(
         typer.Option(
             "--key",
             help="What varies: geometry.diameter=1.0:1.6, or lubricant.viscosity=0.1,0.2,0.3; "
-            "may be repeated, and takes the place of [design.keys].",
+            "may be repeated, and takes the place of \\[design.keys].",
         ),
     ] = None,
     margin: Annotated[
@@ -53,7 +53,8 @@ def design(
     crown: Annotated[
         bool,
         typer.Option(
-            "--crown", help="Search the crown of journal bearings alone, as [design.crown] says."
+            "--crown",
+            help="Search the crown of journal bearings alone, as \\[design.crown] says.",
         ),
     ] = False,
     out_folder: OutFolder = Path("runs"),

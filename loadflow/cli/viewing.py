@@ -16,9 +16,9 @@ def view(
     port: Annotated[int, typer.Option(min=0, max=65535, help="0: any free one.")] = 0,
     browser: Annotated[bool, typer.Option(help="Open the browser.")] = True,
 ) -> None:
-    """Open a dashboard on a run in the browser: local, without a network.
+    r"""Open a dashboard on a run in the browser: local, without a network.
 
-    It needs the extra: pip install loadflow[view].
+    It needs the extra: pip install loadflow\[view].
     """
     from loadflow.running.dashboard import serve
 

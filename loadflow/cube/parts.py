@@ -84,6 +84,9 @@ def label_case(case: xr.Dataset) -> xr.Dataset:
         return case
     missing = [c for c in ("dlc", "wind_speed", "seed") if c not in case.coords]
     if missing:
-        raise InputError(f"a load case lacks the coordinate {missing[0]!r}")
+        raise InputError(
+            f"a load case lacks the coordinate {missing[0]!r}; those of a load cube have dlc, "
+            "wind_speed and seed, as loadflow.cube.make_case sets them"
+        )
     dlc, wind_speed, seed = (case.coords[c].item() for c in ("dlc", "wind_speed", "seed"))
     return case.assign_coords(case=case_name(dlc, wind_speed, seed))

@@ -188,18 +188,16 @@ class PadResult(Shows):
         return drawn(pads=self)
 
     def __repr__(self) -> str:
-        """The numbers on a line each; arrays of more than five by their shape."""
-        lines = []
-        for part in fields(self):
-            value: Any = getattr(self, part.name)
-            if isinstance(value, np.ndarray) and value.size > 5:
-                value = f"array {value.shape}"
-            elif isinstance(value, PadResult):  # of a pair
-                value = type(value).__name__
-            elif not isinstance(value, bool | int):
-                value = np.array2string(np.asarray(value), precision=6)
-            lines.append(f"  {part.name} = {value}")
-        return "\n".join([type(self).__name__, *lines])
+        """The state in short."""
+        name = type(self).__name__
+        if not self.converged:
+            return f"<{name}: not converged, residual {self.residual:.2g}>"
+        said = (
+            f"h_min = {self.minimum_film * 1e6:.4g} µm, p_max = {self.maximum_pressure / 1e6:.4g} "
+            f"MPa, P_f = {self.friction_power:.4g} W"
+        )
+        missed = "" if self.resolved else ", not resolved"
+        return f"<{name}: {said}{missed}, {self.iterations} iterations>"
 
 
 @dataclass(frozen=True, repr=False)

@@ -29,7 +29,7 @@ class Shown(ABC):
             f"<td>{text}</td><td style='text-align:left'>{escape(unit)}</td></tr>"
             for q, text, unit in self._shown()
         )
-        head = escape(repr(self).strip("<>").splitlines()[0])
+        head = escape(repr(self).splitlines()[0].strip("<>"))
         return (
             f"<table><caption style='text-align:left'>{head}</caption>"
             "<thead><tr><th></th><th style='text-align:left'>quantity</th><th>value</th>"

@@ -53,7 +53,8 @@ from loadflow.studies.design_result import (
     scene_of_best,
 )
 from loadflow.studies.design_space import Space, space_of, start_of
-from loadflow.studies.load_spectrum import load_spectrum
+from loadflow.studies.load_spectrum import VARIABLES, load_spectrum
+from loadflow.studies.shaft_through import BentShaft, fitting_shaft
 
 _NEARER = 0.97  # of what was found, where a design that was checked breaks a limit all the same
 
@@ -134,7 +135,7 @@ def design(
             problem = _problem(loads, space, candidate, options, folder)
             search = Search(problem, options, folder.absolute() / "parts", where, how)
             search.ask(np.array([start_of(space)]))
-            given = judge_design(candidate, scene.friction, problem.spectrum)
+            given = judge_design(candidate, scene.friction, problem.spectrum, problem.shaft)
             search.sweep()
             fronts = search.levels()
             best = search.best(options.margin)
@@ -144,7 +145,9 @@ def design(
     done = Designed(folder, checked)
     write_text(done.table, checked.to_csv())
     if checked.best is not None:
-        write_text(done.scene, scene_of_best(scene, checked))
+        best_one, _ = space.at(checked.best.tolist())
+        fitting = scene.model_copy(update={"shaft": fitting_shaft(scene, best_one)})
+        write_text(done.scene, scene_of_best(fitting, checked))
     elif done.scene.exists():
         done.scene.unlink()  # of other settings
     write_text(folder / "design.json", json.dumps(checked.as_dict(), indent=1))
@@ -179,8 +182,9 @@ def _problem(
 ) -> Problem:
     """The spectrum of the loads, with what is asked of it."""
     tree, digest = spectrum_of(loads, candidate, options.classes, folder)
-    told = [digest, candidate.model_dump_json(), repr(space)]
-    return Problem(space, tree, hashlib.sha256("\n".join(told).encode()).hexdigest())
+    shaft = BentShaft.of(loads.scene, candidate.places)
+    told = [digest, candidate.model_dump_json(), repr(space), repr(shaft)]
+    return Problem(space, tree, hashlib.sha256("\n".join(told).encode()).hexdigest(), shaft)
 
 
 def spectrum_of(
@@ -189,7 +193,7 @@ def spectrum_of(
     """Spectrum of the loads of a candidate, made or read from `folder`, and its digest."""
     places, file = candidate.places, folder / "spectrum.h5"
     steps = {step.name: step.digest for step in loads.plan.steps}
-    told = [__version__, steps["loads"], steps["shaft"], *places, str(classes)]
+    told = [__version__, *VARIABLES, steps["loads"], steps["shaft"], *places, str(classes)]
     told += [loads.scene.digest("loads", "shaft", "turbine")]
     digest = hashlib.sha256("\n".join(told).encode()).hexdigest()
     if not file.exists() or digest_of(file) != digest or not is_sound(file):
@@ -271,7 +275,9 @@ def _run(
     loads: SharedLoads, chosen: dict[str, Candidate], friction: Friction, folder: Path, how: Means
 ) -> tuple[Any, dict[str, str]]:
     """The numbers of a candidate as a comparison has them, or None and why there are none."""
-    scene = loads.scene.model_copy(update={"friction": friction})
+    (candidate,) = chosen.values()
+    update = {"friction": friction, "shaft": fitting_shaft(loads.scene, candidate)}
+    scene = loads.scene.model_copy(update=update)
     of_scene = SharedLoads(scene, loads.plan, loads.folder)
     try:
         finished, failures = run_candidates(of_scene, chosen, folder / "checks", how)

@@ -21,15 +21,11 @@ from loadflow.running.comparison import Means
 from loadflow.running.executor import Executor, Lost
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.scene.design import Design
-from loadflow.studies.design_point import (
-    NUMBERS,
-    DesignPoint,
-    from_columns,
-    judge_design,
-    to_columns,
-)
+from loadflow.studies.design_columns import from_columns, to_columns
+from loadflow.studies.design_point import NUMBERS, DesignPoint, judge_design
 from loadflow.studies.design_result import Map, best_of
 from loadflow.studies.design_space import Space
+from loadflow.studies.shaft_through import BentShaft
 
 BATCH = 8
 """Points in a part."""
@@ -42,6 +38,7 @@ class Problem:
     space: Space
     spectrum: xr.DataTree
     digest: str
+    shaft: BentShaft | None = None
 
     def judged(self, point: Sequence[float]) -> DesignPoint:
         """The design at a point."""
@@ -49,7 +46,7 @@ class Problem:
             candidate, friction = self.space.at(point)
         except InputError as error:
             return DesignPoint(why=str(error))
-        return judge_design(candidate, friction, self.spectrum)
+        return judge_design(candidate, friction, self.spectrum, self.shaft)
 
 
 @dataclass

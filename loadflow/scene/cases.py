@@ -114,7 +114,10 @@ def list_cases(scene: Scene) -> list[Case]:
         simulated = [case for dlc in loads.dlcs for case in _simulated(scene, dlc)]
         return weighted(_distinct(simulated), wind_class(scene))
     if not loads.files:
-        raise InputError('loads.files: source = "files" needs load files; none is given')
+        raise InputError(
+            f'{scene.name}: loads.files: source = "files" needs load files; none is given: name '
+            "them there, or on the command line with --loads 'path/to/*.outb'"
+        )
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)

@@ -7,12 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from loadflow.numerics.fields import meant
-from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of
+from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of, machine_names
 from loadflow.scene.own_shaft import own_shaft
 from loadflow.scene.places import Location, sections_of
 from loadflow.scene.tolerances import taken_out
 from loadflow.schemas import Schema
-from loadflow.turbines import turbine_names
+from loadflow.turbines import load_turbine, turbine_names
 
 
 def _with_places(data: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:
@@ -115,10 +115,16 @@ def _placed(stated: Any, turbine: str) -> Any:
 def _sized(name: str, turbine: str, told: str) -> dict[str, Any]:
     """A candidate of the package; `told` begins the message where there is none of that name."""
     known = candidates_of(turbine)
+    if not known:
+        load_turbine(turbine)  # what is wrong with its name or file is told first
+        raise ValueError(
+            f"{told} bearings are sized for {', '.join(machine_names())}, not for {turbine}; state "
+            "its own as [bearings.PLACE]: `loadflow scene --show` of a scene with one of these "
+            "turbines prints the sized ones to begin with"
+        )
     if name not in known:
         raise ValueError(
-            f"{told} is none of those sized for {turbine}: "
-            f"{', '.join(known) or 'there are none'}{meant(name, known)}"
+            f"{told} is none of those sized for {turbine}: {', '.join(known)}{meant(name, known)}"
         )
     found: dict[str, Any] = known[name]
     return found

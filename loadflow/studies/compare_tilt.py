@@ -11,9 +11,11 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
-from loadflow.scene.scene import Scene
-from loadflow.shaft import Beam, ShaftSection, bearing_loads
+from loadflow.scene.scene import Scene, read_scene
+from loadflow.shaft import bearing_loads
+from loadflow.shaft.options import Concept
 from loadflow.studies.compare_factor import SAMPLES
+from loadflow.studies.shaft_through import hollow_shaft, shaft_widths, through
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -54,22 +56,27 @@ class Tilt:
 def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
     """Largest tilt of the shaft in a bearing over what it allows.
 
-    The shaft bends as its beam does; without one, as a hollow beam that fits into the bearings.
-    A bearing that takes the moment tilts with the shaft, without a limit.
+    The shaft bends as its beam does, made narrower where it would not pass through the bearings;
+    without one, as a hollow beam that fits into them. A bearing that takes the moment tilts with
+    the shaft, without a limit. Where a film was solved around the tilted shaft, what is left of it
+    closes at a tilt that much larger.
     """
     from loadflow.turbines import load_turbine
 
-    places = _allowed_tilts(scene, tables)
+    allowed = _allowed_tilts(scene, tables)
+    ran = read_scene(folder / "scene.toml")  # with the effects that the run had
+    tilted = ran.journal.bearings if "journal" in tables and ran.journal.tilt else ()
+    widths = shaft_widths(
+        scene.journal if "journal" in tables else None,
+        scene.rolling if "rolling" in tables else None,
+    )
     found: dict[str, Tilt] = {}
     gravity = load_turbine(scene.turbine.name).rotor.tilt
     for concept in scene.shaft.concepts:
-        own = [place for place in concept.bearings if place in places]
+        own = [place for place in concept.bearings if place in allowed]
         if not own or len(concept.bearings) < 2:
             continue
-        outer = min(places[place][1] for place in own)
-        beam = concept.beam or Beam(sections=(ShaftSection(outer, outer / 2),))
-        note = "" if concept.beam else f"of a hollow shaft of {1e3 * outer:.0f} mm"
-        line = replace(concept, beam=beam.on_rigid_bearings())
+        line, note = _beam_through(concept, {place: widths[place] for place in own})
         for path in sorted((folder / "loads").glob("*.h5")):
             series = read_variables(path, ("hub_force", "hub_moment"))
             count = series.sizes["time"]
@@ -85,27 +92,41 @@ def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
             seen = zip(size.max(axis=1).tolist(), times)
             largest = dict(zip(tilts["bearing"].values.tolist(), seen))
             for place in own:
-                limit, one = places[place][0], found.get(place, Tilt(0.0, place, note=note))
+                limit, one = allowed[place], found.get(place, Tilt(0.0, place, note=note))
                 if limit > 0:
                     tilt, time = largest[place]
-                    if tilt / limit > one.share:
-                        one = replace(one, share=tilt / limit, case=path.stem, time=time)
-                    found[place] = replace(one, by_case=one.by_case | {path.stem: tilt / limit})
+                    share = tilt / (limit + (tilt if place in tilted else 0.0))
+                    if share > one.share:
+                        one = replace(one, share=share, case=path.stem, time=time)
+                    found[place] = replace(one, by_case=one.by_case | {path.stem: share})
     return max(found.values(), key=lambda one: one.share, default=Tilt())
 
 
-def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, tuple[float, float]]:
-    """By place: tilt that the bearing allows, rad (0: no limit), and the shaft's diameter, m.
+def _beam_through(concept: Concept, widths: Mapping[str, float]) -> tuple[Concept, str]:
+    """The suspension on rigid bearings with a beam that passes through them, and which it is."""
+    narrow = min(widths.values())
+    if concept.beam is None:
+        line = replace(concept, beam=hollow_shaft(narrow))
+        note = f"of a hollow shaft of {1e3 * narrow:.0f} mm"
+    else:
+        line = through(concept, widths)
+        fits = line is concept
+        note = "" if fits else f"of the shaft made narrower, to pass through {1e3 * narrow:.0f} mm"
+    assert line.beam is not None
+    return replace(line, beam=line.beam.on_rigid_bearings()), note
+
+
+def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, float]:
+    """By place: tilt that the bearing allows, rad; 0: no limit.
 
     A journal bearing allows that which closes its smallest film at an end.
     """
-    found: dict[str, tuple[float, float]] = {}
+    found: dict[str, float] = {}
     if "journal" in tables:
         for place in scene.journal.bearings:
-            size = scene.journal.at(place).geometry
             film = float(tables["journal"]["smallest_film"].sel(bearing=place).min())
-            found[place] = 2 * film / size.width, size.diameter
+            found[place] = 2 * film / scene.journal.at(place).geometry.width
     if "rolling" in tables:
         for place, bearing in scene.rolling.geometries.items():
-            found[place] = bearing.allowed_tilt or 0.0, 0.8 * bearing.pitch_diameter
+            found[place] = bearing.allowed_tilt or 0.0
     return found

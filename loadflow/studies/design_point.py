@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
@@ -25,6 +25,7 @@ from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
+from loadflow.studies.shaft_through import BentShaft
 
 COARSE = (48, 12)
 """Cells at most of a film that is solved on the grid."""
@@ -109,7 +110,12 @@ class _Sums:
         self.most[name] = max(self.most.get(name, -math.inf), value)
 
 
-def judge_design(candidate: Candidate, friction: Friction, spectrum: xr.DataTree) -> DesignPoint:
+def judge_design(
+    candidate: Candidate,
+    friction: Friction,
+    spectrum: xr.DataTree,
+    shaft: BentShaft | None = None,
+) -> DesignPoint:
     """Friction, margin and conditions of a candidate under a load spectrum.
 
     Parameters
@@ -120,6 +126,8 @@ def judge_design(candidate: Candidate, friction: Friction, spectrum: xr.DataTree
         Oil of rolling bearings.
     spectrum : xarray.DataTree
         Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
+    shaft : BentShaft, optional
+        The shaft that bends in them: as wide as they are, its tilt is a condition.
 
     Returns
     -------
@@ -130,9 +138,15 @@ def judge_design(candidate: Candidate, friction: Friction, spectrum: xr.DataTree
     try:
         if candidate.journal is not None:
             for place in candidate.journal.bearings:
-                _add_film(sums, candidate.journal.at(place), place, spectrum[place].to_dataset())
+                samples = spectrum[place].to_dataset()
+                bends = shaft is not None and place in shaft.concept.bearings
+                if shaft is not None and bends:
+                    samples = shaft.lying(candidate, place, samples)
+                _add_film(sums, candidate.journal.at(place), place, samples, bends)
         if candidate.rolling is not None:
             _add_rolling(sums, candidate.rolling.bearings, friction, spectrum)
+            if shaft is not None:
+                _add_tilts(sums, candidate, shaft, spectrum)
     except (SolverError, InputError) as error:
         return DesignPoint(why=str(error))
     seconds = spectrum.attrs["seconds"]
@@ -169,8 +183,8 @@ def fast_journal(options: Journal) -> Journal:
     return still.model_copy(update={"rung": "grid", "grid": (around, across)})
 
 
-def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset) -> None:
-    """Add what a journal bearing loses, and how far its limits are."""
+def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset, bends: bool) -> None:
+    """Add what a journal bearing loses, and how far its limits are; whether its shaft `bends`."""
     fast = fast_journal(options)
     force = samples["force"].transpose("sample", "axis").values
     speed, weight = samples["speed"].values, samples["weight"].values
@@ -199,6 +213,11 @@ def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset) ->
             film.grown(thin).minimum_film, options.least_film, falls=True
         )
         sums.extreme("minimum_film", float(film_of[thin]))
+        if bends and not options.tilt:  # a tilted film has its ends in the smallest film
+            closing = 2 * film_of[judged] / options.geometry.width
+            tilt = _tilt(samples)[judged]
+            share = float((closing / np.maximum(tilt, 1e-300)).min())
+            sums.conditions[f"tilt of the shaft in {place}"] = share
     pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
     hardest = int(asked[np.argmax(pressure)])
     allowed = _allowed_pressure(options, answer, int(np.argmax(pressure)))
@@ -253,6 +272,11 @@ def _crossing(values: np.ndarray, limit: float, falls: bool) -> float:
         return float(FACTORS[k - 1])
     share = distance[k - 1] / (distance[k - 1] - distance[k])
     return float(FACTORS[k - 1] * (FACTORS[k] / FACTORS[k - 1]) ** share)
+
+
+def _tilt(samples: xr.Dataset) -> np.ndarray:
+    """Size of the tilt of the shaft in a bearing, rad."""
+    return np.hypot(*samples["tilt"].sel(axis=["y", "z"]).transpose("axis", "sample").values)
 
 
 def _allowed_pressure(options: Journal, answer: Any, worst: int) -> float:
@@ -337,6 +361,16 @@ def _add_rolling(
         )
 
 
+def _add_tilts(sums: _Sums, candidate: Candidate, shaft: BentShaft, spectrum: xr.DataTree) -> None:
+    """Add how far the tilt of the shaft is from that which rolling bearings allow."""
+    assert candidate.rolling is not None
+    for place, bearing in candidate.rolling.geometries.items():
+        if place in shaft.concept.bearings and bearing.allowed_tilt:
+            tilt = _tilt(shaft.lying(candidate, place, spectrum[place].to_dataset())).max()
+            share = bearing.allowed_tilt / max(float(tilt), 1e-300)
+            sums.conditions[f"tilt of the shaft in {place}"] = share
+
+
 @dataclass(frozen=True)
 class _Turned:
     """A rolling bearing under the loads of a lifetime."""
@@ -396,30 +430,3 @@ def _static(part: FurtherBearing, samples: xr.Dataset) -> float:
     )
     answer = rest(part, force, moment, some["speed"].values, strict=False)
     return float(np.where(answer.converged, answer.static_safety, 0.0).min())
-
-
-def to_columns(points: list[DesignPoint]) -> dict[str, np.ndarray]:
-    """Numbers and words of designs by name."""
-    numbers = {
-        name: np.array([one.numbers.get(name, math.nan) for one in points], float)
-        for name in NUMBERS
-    }
-    words = {
-        one.name: np.array([getattr(point, one.name) for point in points], str)
-        for one in fields(DesignPoint)
-        if one.name != "numbers"
-    }
-    return numbers | words
-
-
-def from_columns(columns: Mapping[str, Any]) -> list[DesignPoint]:
-    """The inverse of `to_columns`."""
-    words = [one.name for one in fields(DesignPoint) if one.name != "numbers"]
-    count = len(columns["why"])
-    return [
-        DesignPoint(
-            {} if columns["why"][k] else {name: float(columns[name][k]) for name in NUMBERS},
-            **{word: str(columns[word][k]) for word in words},
-        )
-        for k in range(count)
-    ]

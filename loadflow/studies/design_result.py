@@ -173,8 +173,12 @@ class Designs:
         if tilt is not None and tilt.value > _ALL:
             text += (
                 f" But the shaft in it bends: it tilts by {tilt.value / _ALL:.3g} times what "
-                f"closes the smallest film at an end, no limit here ({tilt.note}); state a beam "
-                "and journal.tilt, or a larger diameter."
+                "the bearing allows"
+            )
+            text += (
+                f", no limit here ({tilt.note}); state a beam, or a larger diameter."
+                if tilt.note
+                else "."
             )
         start = self.judged.get("start")
         if start is None:

@@ -29,7 +29,7 @@ HARDEST = 6
 SLOWEST = 0.05
 """Speed, over the fastest, below which a shaft counts as standing."""
 
-_META = {
+VARIABLES = {
     "speed": ("rad/s", "rotor speed"),
     "weight": ("1", "share of the lifetime"),
     "load_factor": ("1", "partial safety factor for loads of the load case"),
@@ -40,8 +40,13 @@ _META = {
     "moment": ("N m", "moment on the bearing"),
     "tilt": ("rad", "tilt of the shaft in the bearing"),
     "curvature": ("1/m", "bend of the shaft in the bearing"),
+    "hub_force": ("N", "force of the rotor on the shaft at the hub centre"),
+    "hub_moment": ("N m", "moment of the rotor on the shaft about the hub centre"),
 }
-_VECTORS = ("force", "moment", "tilt", "curvature")
+"""What is known of each sample: units and meaning."""
+_OF_BEARING = ("force", "moment", "tilt", "curvature")
+_OF_HUB = ("hub_force", "hub_moment")
+_VECTORS = _OF_BEARING + _OF_HUB
 
 
 def load_spectrum(
@@ -67,7 +72,8 @@ def load_spectrum(
     -------
     xarray.DataTree
         A group for each place: `force`, `moment` (sample, axis), N, N m, and `tilt`, `curvature` of
-        an elastic shaft, in the frame of the cube; `speed`, rad/s, `weight`, whose sum is 1 or the
+        an elastic shaft, and `hub_force`, `hub_moment` meanwhile, in the frame of the cube;
+        `speed`, rad/s, `weight`, whose sum is 1 or the
         share of the time in which the shaft turns, `time`, `load_factor`, `running`, `ultimate`
         and, by load case, `load_per_speed` (case), the mean radial load over speed, N s/rad. The
         attribute `seconds` of the tree is the time in a year that all weights stand for.
@@ -142,7 +148,7 @@ def _of_place(
 
 
 def _about(name: str) -> dict[str, str]:
-    units, meaning = _META[name]
+    units, meaning = VARIABLES[name]
     return {"units": units, "long_name": meaning}
 
 
@@ -159,9 +165,10 @@ def _series(loads: xr.Dataset, shaft: xr.Dataset, share: float) -> dict[str, Any
     }
     found = {name: np.full(speed.size, value) for name, value in alike.items()}
     found |= {"speed": speed, "time": loads["time"].values.astype(float)}
-    for name in _VECTORS:
-        if name in shaft and bool(shaft[name].notnull().all()):
-            found[name] = shaft[name].transpose("time", "axis").values.astype(float)
+    for names, given in ((_OF_BEARING, shaft), (_OF_HUB, loads)):
+        for name in names:
+            if name in given and bool(given[name].notnull().all()):
+                found[name] = given[name].transpose("time", "axis").values.astype(float)
     return found
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import numpy as np
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
@@ -13,7 +13,7 @@ from loadflow.errors import InputError
 Array = NDArray[np.float64]
 Positive = Annotated[float, Gt(0)]
 NotNegative = Annotated[float, Ge(0)]
-Bound = Gt | Ge | Le
+Bound = Gt | Ge | Le | Lt
 
 
 def require(ok: bool, owner: str, name: str, value: object, allowed: str) -> None:
@@ -71,6 +71,8 @@ def _holds(bound: Bound, value: float) -> bool:
             return bool(value >= limit)  # type: ignore[operator]
         case Le(le=limit):
             return bool(value <= limit)  # type: ignore[operator]
+        case Lt(lt=limit):
+            return bool(value < limit)  # type: ignore[operator]
 
 
 def _words(bound: Bound) -> str:
@@ -81,3 +83,5 @@ def _words(bound: Bound) -> str:
             return f">= {limit}"
         case Le(le=limit):
             return f"<= {limit}"
+        case Lt(lt=limit):
+            return f"< {limit}"

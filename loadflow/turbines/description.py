@@ -180,6 +180,9 @@ def _in_radians(
         for key, inner in value.items():
             degrees = isinstance(key, str) and key.endswith("_deg")
             name = key[:-4] if degrees else key
+            if name in found:
+                said = ".".join(map(str, (*theirs, name)))
+                raise InputError(f"{said} and {said}_deg: state one of both")
             place, source = (*ours, name), (*theirs, key)
             written[place] = source
             inner = _in_radians(inner, place, source, written)
@@ -237,6 +240,11 @@ def _messages(
             line = f"{key}: missing key" + (f" ({hint})" if hint else "")
         elif item["type"] == "value_error":
             line = f"[{key}] {reason}" if key else reason
+        elif key.endswith("_deg") and isinstance(item["input"], float):
+            bounds = [one for one in item.get("ctx", {}).values() if isinstance(one, float)]
+            for bound in bounds:
+                reason = reason.replace(str(bound), f"{math.degrees(bound):.4g}")
+            line = f"{key} = {math.degrees(item['input']):.6g}: {reason}"
         else:
             line = f"{key} = {shown(item['input'])}: {reason}"
         if line not in told:

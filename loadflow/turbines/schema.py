@@ -2,15 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from typing import Annotated
 
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt, Le, Lt
 
 from .blade import Airfoil, Blade
 from .checks import NotNegative, Positive, require, require_ranges
 from .control import COMMON_PRACTICE, Control, Supervision
 from .tower import Tower
+
+Inclination = Annotated[float, Gt(-0.35), Lt(0.35)]
+
+_POWER_OF_AREA = 20.0, 2000.0
+"""Rated power over the rotor's area, W/m², far beyond what is built (200 … 550): outside, power or
+radius are in other units."""
 
 
 @dataclass(frozen=True)
@@ -40,8 +47,8 @@ class RotorGeometry:
     blades: Annotated[int, Ge(1), Le(6)]
     hub_height: Positive
     overhang: Positive
-    tilt: float
-    cone: float
+    tilt: Inclination
+    cone: Inclination
     hub_mass: NotNegative
     hub_inertia: NotNegative
 
@@ -51,9 +58,6 @@ class RotorGeometry:
         require(inside, "RotorGeometry", "hub_radius", self.hub_radius, f"in [0, {self.radius})")
         clear = self.hub_height > self.radius
         require(clear, "RotorGeometry", "hub_height", self.hub_height, f"above {self.radius} m")
-        for name in ("tilt", "cone"):
-            value = getattr(self, name)
-            require(abs(value) < 0.35, "RotorGeometry", name, value, "within ±0.35 rad (20°)")
 
 
 @dataclass(frozen=True)
@@ -149,6 +153,10 @@ class Turbine:
         speeds = (self.cut_in, self.rated_wind_speed, self.cut_out)
         ordered = 0 < speeds[0] < speeds[1] < speeds[2]
         require(ordered, self.name, "cut_in, rated, cut_out", speeds, "positive and increasing")
+        low, high = (bound * math.pi * self.rotor.radius**2 for bound in _POWER_OF_AREA)
+        likely = low < self.rated_power < high
+        by_area = f"{low:.2g} … {high:.2g} W for a rotor of {self.rotor.radius:g} m radius"
+        require(likely, self.name, "rated_power", self.rated_power, by_area)
         for name in self.blade.airfoil:
             known = ", ".join(sorted(self.airfoils))
             require(name in self.airfoils, "Blade", "airfoil", name, f"one of {known}")

@@ -1,5 +1,6 @@
 """Places on the shaft as scenes write them: `[bearings.PLACE]`, lists of them, candidates."""
 
+import importlib.resources
 import json
 import tomllib
 import warnings
@@ -248,6 +249,19 @@ def test_bearings_by_name_are_those_sized_for_the_turbine():
         make_scene({"bearings": "conical-pair", "turbine": {"name": "windpact-1.5mw"}})
     with pytest.raises(InputError, match="second journal bearing"):
         make_scene({"bearings": ["journal-thrust", "journal-lemon"]})
+
+
+def test_names_of_sized_bearings_do_not_hide_what_is_wrong_with_the_turbine(tmp_path):
+    for name, told in (("nrel-5mv", "did you mean nrel-5mw"), ("none.toml", "does not exist")):
+        with pytest.raises(InputError, match=told):
+            make_scene({"turbine": {"name": name}, "bearings": "journal-thrust"})
+    own = tmp_path / "own.toml"
+    shipped = importlib.resources.files("loadflow.turbines") / "nrel-5mw.toml"
+    own.write_text(shipped.read_text(encoding="utf-8"), encoding="utf-8")
+    with pytest.raises(
+        InputError, match=r"not for .*own.toml; state its own as \[bearings.PLACE\]"
+    ):
+        make_scene({"turbine": {"name": str(own)}, "bearings": "journal-thrust"})
 
 
 @pytest.mark.parametrize("turbine", machine_names())

@@ -42,6 +42,18 @@ def test_a_turbine_passes_through():
         ("radius = 63.0", 'radius = "63"', "rotor.radius = '63': must be a valid number"),
         ("gear_ratio = 97.0", "gear_ratoi = 97.0", "drivetrain.gear_ratio: missing key"),
         ("cut_in = 3.0 ", "cut_in = 30.0 ", "cut_in, rated, cut_out"),
+        ("tilt_deg = 5.0", "tilt_deg = 500.0", "rotor.tilt_deg = 500: must be less than 20.05"),
+        ("tilt_deg = 5.0", "tilt = -5.0", "rotor.tilt = -5.0: must be greater than -0.35"),
+        (
+            "cone_deg = 2.5",
+            "cone_deg = 2.5\ncone = 0.04",
+            "rotor.cone and rotor.cone_deg: state one",
+        ),
+        (
+            "rated_power = 5.0e6",
+            "rated_power = 5.0",
+            "must be 2.5e.05 … 2.5e.07 W for a rotor of 63 m",
+        ),
         ('"DU40"]', '"DU41"]', "airfoil = 'DU41'"),
         ("DU40_A17", "DU40_A18", "no column 'DU40_A18_cl'"),
         ("flap1 = [0.0622,", "flap1 = [0.5,", "sum of coefficients"),
