@@ -125,7 +125,7 @@ RUNGS: dict[str, Rung] = {
             frozenset({"heat", "inlet", "grading"}),
             _WARMING | {"inlet", "grading"},
         ),
-        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING),
+        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING | {"periodic"}),
         Rung(
             "grid",
             f"{_MODELS}.grid",

@@ -138,7 +138,7 @@ class ComposedFilm:
         least = -2.0 * rough if rough > 0.0 else _ROOM
         for place, line in zip(places, lines):
             for _ in range(60):
-                if self._least(place[None], line[None, 2:])[0] >= least:
+                if self.least(place[None], line[None, 2:])[0] >= least:
                     break
                 place[:2] *= 0.9
         return places
@@ -147,7 +147,7 @@ class ComposedFilm:
         """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
         for share in SHARES:
             nearer = place * [share, share, 1.0, 1.0]
-            if self._least(nearer[None], bend[None])[0] > ShapedGap.first_gap:
+            if self.least(nearer[None], bend[None])[0] > ShapedGap.first_gap:
                 return share
         return 0.0
 
@@ -162,15 +162,15 @@ class ComposedFilm:
         """Whether the cells around resolve the narrowest gap of a rigid shell."""
         if self.film.give > 0.0:
             return True
-        narrow = self._least(position[None], self.work.bend[None])[0]
+        narrow = self.least(position[None], self.work.bend[None])[0]
         return self.units.resolves(np.array([1.0 - narrow, 0.0]))
 
     def touches(self, position: Array) -> bool:
         """Whether a rigid bore and a smooth shaft of given line touch at a position (4,)."""
         smooth = self.film.give == 0.0 and self.film.rough.size == 0.0 and self.size == 2
-        return smooth and bool(self._least(position[None], self.work.bend[None])[0] < TOUCHING)
+        return smooth and bool(self.least(position[None], self.work.bend[None])[0] < TOUCHING)
 
-    def _least(self, positions: Array, bends: Array) -> Array:
+    def least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
         gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
@@ -210,7 +210,7 @@ class ComposedFilm:
     def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
         if self.film.ring.shaped and self.film.give == 0.0:  # between the cells, too
-            rows[:, at.LEAST] = self._least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
+            rows[:, at.LEAST] = self.least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
         share = 0.5 if self.whole else 1.0  # the units are those of half of the width
         found = Integrals(
             peak=rows[:, at.PEAK],
