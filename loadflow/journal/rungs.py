@@ -40,7 +40,9 @@ _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
-_REDUCED = frozenset(_LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence"})
+_REDUCED = frozenset(
+    _LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence", "supply"}
+)
 
 
 @dataclass(frozen=True)

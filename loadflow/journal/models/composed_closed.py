@@ -19,7 +19,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._pad_kernels import BEFORE, LAST
-from loadflow.journal.models.composed_model import LEVELS, contact_share, warn_unresolved
+from loadflow.journal.models.composed_model import contact_share, warn_unresolved
 from loadflow.journal.models.composed_path import (
     STEP_BEFORE,
     Drive,
@@ -72,7 +72,7 @@ def orbit(
     drive = Drive(bearing, options, times, force[past], speed[past], line.at(past), control)
     march = march_of(drive, steps)
     period = _Period(march, steps)
-    for level in LEVELS:
+    for level in march.levels:
         if period.state is None:
             period.state = march.begins(level, begin)
         closes = period.state is not None and period.closes(level)

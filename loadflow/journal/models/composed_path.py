@@ -101,6 +101,7 @@ class March:
 
     def __init__(self, drive: Drive, steps: Steps) -> None:
         self.drive, self.start = drive, steps.start
+        self.levels = LEVELS if drive.options.supply is None else LEVELS[:1]
         self.model = model = drive.film(LEVELS[0])
         contact = drive.options.contact
         rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
@@ -109,7 +110,7 @@ class March:
         self.warmth, self.states = slow_states(
             drive.options, model.units, share, rub, steps.temperature, drive.time.size
         )
-        self.rows = np.zeros((drive.time.size, at.RESULTS))
+        self.rows = np.zeros((drive.time.size, model.columns))
         self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
         self.typical = float(drive.specific_load.mean())
 
@@ -128,7 +129,7 @@ class March:
         some = slice(begin, end)
         rows, force = self.rows[some], self.drive.force[some]
         missed = self.model.unresolved_on_path(rows, force, self.typical)
-        return level == LEVELS[-1] or not missed.any()
+        return level == self.levels[-1] or not missed.any()
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, and where the shaft is; None where it is not found."""
@@ -287,7 +288,7 @@ def orbit(
     drive = Drive(bearing, options, time, force, speed, line, control)
     march = march_of(drive, steps)
     model, rows = march.model, march.rows
-    for level in LEVELS:
+    for level in march.levels:
         state = march.begins(level, begin)
         if state is not None and march.resolved(level, 0, 1):
             break
@@ -301,7 +302,7 @@ def orbit(
             after, looked_at = march.goes_on(state, LEVELS[0], done, end), end
         if after is None or not march.resolved(LEVELS[0], done, end):
             end = min(done + _STRETCH, end)
-            for level in LEVELS:
+            for level in march.levels:
                 after = march.goes_on(state, level, done, end)
                 if after is not None and march.resolved(level, done, end):
                     break

@@ -2,9 +2,8 @@
 
 Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
 the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
-the shell: there is no inlet line, and no groove but those between fixed lobes. A film with a shaft
-that tilts or bends, asperities or a shell that gives way is one of
-`loadflow.journal.models.composed`.
+the shell: there is no inlet line. A film with a shaft that tilts or bends, asperities, a shell that
+gives way or grooves of a supply is one of `loadflow.journal.models.composed`.
 """
 
 from __future__ import annotations
@@ -182,7 +181,7 @@ def _path(
 
     if steps.periodic:
         check_period(time, force, speed, line)
-        if not (bearing.shape.segments or bearing.relief or not line.straight):
+        if not (bearing.shape.segments or bearing.relief or options.supply or not line.straight):
             check_half_speed_whirl(time, force, speed)
         values, about = composed_closed.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position
