@@ -277,7 +277,8 @@ class JournalBearing(JournalGeometry):
             Find the closed orbit; `time` is one period, whose last sample closes it. True is
             "direct": the state that comes back after a period, solved for, or where that takes
             long around an aligned cylinder and the law keeps no fill, all times at once;
-            "marching" goes on from period to period. Only "grid" closes orbits.
+            "marching" goes on from period to period. Only "grid" and "reduced" close orbits, this
+            one from the state that comes back alone.
         closure : float
             Largest change of position (clearances) and film (over the scale of pressure) from one
             period to the next.

@@ -16,7 +16,7 @@ from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.contact import Contact
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.rungs import check_rung
+from loadflow.journal.rungs import RUNGS, check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
 from loadflow.journal.turbulence import Turbulence
@@ -191,6 +191,11 @@ class Film:
         require(self.grading != "graded", "grading", self.grading, "uniform where fill has a past")
         require(self.inlet != "widest gap", "inlet", self.inlet, "None where fill has a past")
         return replace(self, grading="uniform", inlet=None)
+
+    def closing(self) -> Film:
+        """The same on a rung that closes orbits: its own, or else the grid."""
+        closes = "periodic" in (RUNGS[self.rung].in_motion or ())
+        return self if closes else replace(self, rung="grid")
 
     def isothermal(self) -> Film:
         """The same without heat, its liquid as it enters."""

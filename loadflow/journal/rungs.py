@@ -40,7 +40,9 @@ _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
-_REDUCED = frozenset(_LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence"})
+_REDUCED = frozenset(
+    _LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence", "supply"}
+)
 
 
 @dataclass(frozen=True)
@@ -125,7 +127,7 @@ RUNGS: dict[str, Rung] = {
             frozenset({"heat", "inlet", "grading"}),
             _WARMING | {"inlet", "grading"},
         ),
-        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING),
+        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING | {"periodic"}),
         Rung(
             "grid",
             f"{_MODELS}.grid",

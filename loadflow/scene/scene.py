@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import tomllib
-from dataclasses import replace
 from math import inf
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -169,7 +168,7 @@ class Scene(Section, BaseModel):
         if method == "periodic" and not journal.in_motion and self.wants("journal"):
             for place in journal.bearings:
                 one = journal.at(place)
-                film = replace(one.film_model.isothermal(), rung="grid")
+                film = one.film_model.isothermal().closing()
                 line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
                 steps = Steps(None, periodic=True)
                 why = why_not("in_motion", film, one.geometry, line, steps)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +21,9 @@ def film_response(journal: Journal, speed: float) -> Response:
     """Return ``response(mean, amplitude, frequency)`` for `loadflow.reduction.frequency_bounds`.
 
     It is the largest eccentricity ratio of the closed orbit under
-    mean + amplitude · sin(2π frequency · t), by finite volumes (4.23). The closed orbit is solved
-    for directly: near half the speed of the shaft the load drives its whirl, which would take
-    hundreds of periods to decay.
+    mean + amplitude · sin(2π frequency · t), by finite volumes (4.23) or on the rung "reduced". The
+    closed orbit is solved for directly: near half the speed of the shaft the load drives its whirl,
+    which would take hundreds of periods to decay.
 
     Parameters
     ----------
@@ -49,7 +48,7 @@ def film_response(journal: Journal, speed: float) -> Response:
                 phase / (2.0 * np.pi * frequency),
                 mean + np.outer(np.sin(phase), amplitude),
                 speed,
-                replace(held.film_model, rung="grid"),  # the only one that closes an orbit
+                held.film_model.closing(),
                 periodic=True,
             )
         return float(orbit["eccentricity_ratio"].max())

@@ -121,8 +121,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     force, speed = to_film(vectors), reduced["speed"].values
     warm = mean_temperature(options, force, speed)
     held = options if warm is None else options.at_temperature(warm)
-    # the only rung that closes an orbit
-    film, moment = replace(held.film_model, rung="grid"), to_film(reduced["moment"].values)
+    film, moment = held.film_model.closing(), to_film(reduced["moment"].values)
     try:
         with unresolved_counted():  # `film_summary` tells of them
             path = held.geometry.orbit(

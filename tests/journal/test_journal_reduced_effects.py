@@ -403,13 +403,13 @@ def test_more_points_across_go_on_from_the_film_so_far(monkeypatch):
     """Of a path that asks for them in its middle alone; gas and oil stay where they are."""
     time, load, tilt = gust(601)
     samples = {}
-    goes_on = composed_path._March.goes_on
+    goes_on = composed_path.March.goes_on
 
     def counted(march, state, level, begin, end):
         samples.setdefault(level, set()).update(range(begin, end))
         return goes_on(march, state, level, begin, end)
 
-    monkeypatch.setattr(composed_path._March, "goes_on", counted)
+    monkeypatch.setattr(composed_path.March, "goes_on", counted)
     few = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
     assert samples[0] == set(range(1, 601))
     assert 0 < len(samples[1]) < 150

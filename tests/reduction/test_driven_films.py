@@ -84,6 +84,22 @@ def test_a_periodic_load_drives_the_film_round_the_orbit_that_closes():
     assert gap.max() > 0.005
 
 
+def test_a_scene_on_the_rung_reduced_closes_its_orbits_there():
+    keys = {"reduction": {"method": "periodic", "bounds": [0.05, 0.3], "orders": [1.0]}}
+    law = {"cavitation": {"kind": "gas-mixture", "mixing_constant": 5e4}, "edge_pressure": 5e5}
+    few, fine = (
+        scene_of(journal=law | {"rung": rung, "grid": [36, 24]}, **keys)
+        for rung in ("reduced", "grid")
+    )
+    inputs = inputs_of(few)
+    one, other = (journal.film(scene, One(), inputs)["N"].to_dataset() for scene in (few, fine))
+    assert "minimum_film_grid_error" in other.attrs
+    assert "minimum_film_grid_error" not in one.attrs  # of the grid alone
+    least = [float(film["minimum_film"].min()) for film in (one, other)]
+    assert least[0] == pytest.approx(least[1], rel=0.01)
+    assert least[0] != least[1]
+
+
 def test_the_film_of_each_place_says_its_own_bounds():
     stiff = {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3}
     scene = make_scene(

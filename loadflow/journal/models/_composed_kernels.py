@@ -28,6 +28,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     smooth_beyond,
     touch,
 )
+from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
 
@@ -45,14 +46,14 @@ def balance(film, work, wedge, rate):
     flow, row, sum_x, sum_y = work.row[0], work.row[1], work.row[2], work.row[3]
     up, up_right = max(wedge, 0.0), min(wedge, 0.0)  # from upstream
     for i in range(nx):
-        here, step = i * wide, ring.width[i]
-        pressure = p[i]
+        here, step, pressure = i * wide, ring.width[i], p[i]
+        across = 0.0 if ring.groove[i] else step
         for at in range(0, wide, LANES):
             slope = spread(0.0)
             for j in range(m):
                 slope = slope + take(lanes.slopes, j * wide + at) * (pressure[j] - ring.p_edge)
             put(work.slope, here + at, slope)
-            put(flow, at, slope * take(cube, here + at) * step)
+            put(flow, at, slope * take(cube, here + at) * across)
         for at in range(0, wide, LANES):
             held = take(fill, here + at) * take(mean, here + at) * rate
             held = (held - take(work.liquid, here + at)) * (ring.slope * step)
@@ -84,6 +85,8 @@ def balance(film, work, wedge, rate):
         largest = max(largest, row[k])
     if ring.shaped:
         largest = _hold_grooves(film, columns, 0, 1)
+    if film.held.on:
+        largest = hold_points(film, work, 0, 1, rate)
     unit, z = ring.area, film.nodes.z
     work.load[:] = 0.0
     for k in range(m):
@@ -144,6 +147,8 @@ def slopes_of_balance(film, work, wedge, rate, size):
             before, c_before, s_before = after, c, s
     if ring.shaped:
         _hold_grooves(film, columns, 1, 5)
+    if film.held.on:
+        hold_points(film, work, 1, 1 + size, rate)
 
 
 @once
@@ -240,6 +245,8 @@ def matrix(film, work, wedge, rate):
                 system.left[i], system.right[i], system.block[i] = 0.0, 0.0, 0.0
                 for k in range(m):
                     system.block[i, k, k] = 1.0
+    if film.held.on:
+        hold_in_matrix(film, system)
 
 
 @once
@@ -301,7 +308,7 @@ def summarise(film, work, q, wedge, row):
     lanes, ring, nodes, m = film.lanes, film.ring, film.nodes, film.nodes.slopes.shape[1]
     p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
     mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
-    plain = film.rough.size == 0.0 and not film.yielding.on and not film.regime.on
+    plain = film.rough.size == 0.0 and not (film.yielding.on or film.regime.on or film.held.on)
     for at in range(0, wide, LANES):
         lost, sheared_at, leaves = spread(0.0), spread(0.0), spread(0.0)
         liquid_at, volume_at = spread(0.0), spread(0.0)
@@ -311,12 +318,13 @@ def summarise(film, work, q, wedge, row):
         for i in range(nx):
             here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
             step, pressure, slope = ring.width[i], p[i], spread(0.0)
+            across = 0.0 if ring.groove[i] else step
             for j in range(m):
                 slope = slope + take(lanes.slopes, j * wide + at) * (pressure[j] - ring.p_edge)
-            flow, rise = take(cube, here) * slope * step, take(p, right) - take(p, here)
+            flow, rise = take(cube, here) * slope * across, take(p, right) - take(p, here)
             lost = lost + weights * flow * slope
             lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
-            if ring.groove[i]:
+            if ring.groove[i] and ring.shaped:  # in a supply's there is oil
                 continue
             leaves = leaves + larger(spread(0.0), outward * flow * -1.0)
             held = weights * take(mean, here) * step
@@ -378,11 +386,13 @@ def summarise(film, work, q, wedge, row):
     # beside asperities a film may carry next to nothing
     row[film_.HIGHEST] = left / max(peak - ring.p_edge, mean_pressure, 1e-3 * ring.scale)
     row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
+    for j in range(work.fed.size):
+        row[film_.RESULTS + j] = work.fed[j]
 
 
 @once
 def _uneven(film, work):
-    """Shear between rough surfaces or of turbulent flow, and the largest growth of the gap."""
+    """Shear between rough surfaces, of turbulent flow or beside grooves, and growth of the gap."""
     points, m, rough = film.nodes.z.size, film.nodes.slopes.shape[1], film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
     numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
@@ -401,6 +411,8 @@ def _uneven(film, work):
             inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
             if film.regime.on:
                 inverse *= factor(h, numbers, SHEAR)[0]
+            if film.held.on and k < m:
+                inverse *= film.held.drags[i, k]
             shear += film.nodes.weights[k] * film.ring.width[i] * inverse
     return shear, grown
 

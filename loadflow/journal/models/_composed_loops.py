@@ -266,6 +266,8 @@ def _finish(film, work, q, speed, size, stiffness, damping):
         for k in range(m):
             held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
             held *= work.gap[OPEN, i, k]
+            if film.held.on and film.held.grooves[i, k] >= 0:
+                held = 0.0
             modes = (
                 film.ring.cos[i],
                 film.ring.sin[i],

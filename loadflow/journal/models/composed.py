@@ -18,10 +18,10 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import (
-    LEVELS,
     ComposedFilm,
     build,
     contact_share,
+    levels_of,
     warn_unresolved,
 )
 from loadflow.journal.models.slow_heat import COLD, standing_states
@@ -38,7 +38,7 @@ _MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a 
 
 def composes(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     """Whether a film has more than laminar flow in an aligned, smooth, rigid bore as it is cut."""
-    effects = film.contact, film.shell, film.turbulence
+    effects = film.contact, film.shell, film.turbulence, film.supply
     more = any(effect is not None for effect in effects) or bool(bearing.relief)
     return more or not line.straight
 
@@ -55,7 +55,7 @@ def equilibrium(
     """
     given = bearing, options
     answer, found, left, none = _equilibria(*given, force, speed, line, control, 0)
-    for level in LEVELS[1:]:
+    for level in levels_of(options)[1:]:
         again = np.flatnonzero(found & left)
         if again.size:
             more, solved, still, _ = _equilibria(
@@ -81,7 +81,11 @@ def _equilibria(
     """Fields of `Equilibrium`, and which loads: have an answer, ask for more points, have none."""
     model = build(bearing, options, speed, line, level)
     film, work, count = model.film, model.work, speed.size
-    rows, lines, loads = np.zeros((count, at.RESULTS)), model.lines(speed.size), model.loads(force)
+    rows, lines, loads = (
+        np.zeros((count, model.columns)),
+        model.lines(speed.size),
+        model.loads(force),
+    )
     places = model.estimates(force, speed, lines)
     both = 4 if model.whole else 2
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
@@ -89,7 +93,7 @@ def _equilibria(
 
     def at_rest(place: Array, n: int, size: int, slopes: Array) -> Array:
         """Row of load `n` at rest; `place` moves in `size` coordinates to where it is carried."""
-        this, row = slice(n, n + 1), np.zeros((1, at.RESULTS))
+        this, row = slice(n, n + 1), np.zeros((1, model.columns))
         solve(
             film, work, place, size, 0, _AT_REST, loads[this], lines[this], speed[this],
             control.tolerance, control.max_iterations, row, slopes, COLD, standing_states(1),
@@ -105,7 +109,7 @@ def _equilibria(
             continue  # no film without rotation and squeeze
         for place, first in _starts(model, places, last, n, rows, at_rest):
             row = at_rest(place, n, model.size, slopes)
-            residual, iterations, answered, rounding = row[at.RESIDUAL :]
+            residual, iterations, answered, rounding = row[at.RESIDUAL : at.RESULTS]
             spent += int(iterations)
             converged = answered > 0.0 and (not options.may_grade or model.resolves(place))
             none[n] = first and _MISSED < residual < 1.0 and model.touches(place)
@@ -115,7 +119,7 @@ def _equilibria(
                 last = n
             if answered or none[n]:
                 break
-        rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
+        rows[n, at.RESIDUAL : at.RESULTS] = residual, spent, converged, rounding
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]
     scale = np.outer(lengths, lengths) / bearing.clearance
     position = rows[:, [at.X, at.Y]]

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
+from loadflow.journal.models.composed_supply import Held
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
 from loadflow.numerics.lanes import lanes_for
@@ -87,7 +88,7 @@ def lanes_of(nodes: Nodes, depth: Array) -> Lanes:
         return given
 
     pairs = nodes.weights[:, None, None] * nodes.slopes[:, :, None] * nodes.slopes[:, None, :]
-    outward = np.concatenate([np.zeros(inner), nodes.ends])
+    outward = np.concatenate([np.zeros(points - nodes.ends.size), nodes.ends])
     return Lanes(
         z=rows(nodes.z), depth=rows(depth[:points]), weights=rows(nodes.weights[:inner]),
         inner=rows(np.ones(inner)), slopes=rows(nodes.slopes.T), shares=rows(nodes.slopes),
@@ -211,6 +212,8 @@ class Composed(NamedTuple):
         What these are on a shell that gives way.
     regime : Regime
         Whether the flow may be turbulent.
+    held : Held
+        What grooves of a supply hold.
     """
 
     ring: Ring
@@ -221,6 +224,7 @@ class Composed(NamedTuple):
     rough: Rough
     yielding: Yielding
     regime: Regime
+    held: Held
 
 
 class ComposedWork(NamedTuple):
@@ -277,6 +281,8 @@ class ComposedWork(NamedTuple):
     kept : array (2,)
         Whether `matrix` holds factors, and `columns` what they make of the derivatives by the
         position; the rate of these, 1/s.
+    fed : array (g,)
+        Flow of the grooves of a supply into the film, as `balance` has it.
     """
 
     u: Array
@@ -305,9 +311,10 @@ class ComposedWork(NamedTuple):
     places: Array
     past: Array
     kept: Array
+    fed: Array
 
 
-def make_work(around: int, nodes: Nodes, places: int) -> ComposedWork:
+def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedWork:
     """Allocate the work arrays."""
     points, inner = nodes.slopes.shape
     shape = around, lanes_for(points)
@@ -338,4 +345,5 @@ def make_work(around: int, nodes: Nodes, places: int) -> ComposedWork:
         places=np.zeros((3, 4)),
         past=np.zeros(5),
         kept=np.zeros(2),
+        fed=np.zeros(grooves),
     )

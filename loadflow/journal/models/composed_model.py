@@ -36,6 +36,12 @@ from loadflow.journal.models.composed_film import (
     lanes_of,
     make_work,
 )
+from loadflow.journal.models.composed_supply import (
+    held_points,
+    nodes_beside,
+    put_in_grooves,
+    supplied,
+)
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
 from loadflow.journal.models.width_modes import at_places, half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
@@ -94,6 +100,11 @@ class ComposedFilm:
         """Degrees of freedom of the shaft that move."""
         return 4 if self.line.moment is not None else 2
 
+    @property
+    def columns(self) -> int:
+        """Of a row of results: those of every film, then the flow of each groove."""
+        return at.RESULTS + self.work.fed.size
+
     def loads(self, force: Array) -> Array:
         """Forces, N, and moments over the shaft radius, (n, 4)."""
         rows = np.zeros((len(force), 4))
@@ -112,8 +123,10 @@ class ComposedFilm:
         return rows
 
     def cold(self) -> Array:
-        """Unknowns of a film at edge pressure."""
-        return self.units.unknown_of(np.full(self.work.u.shape, self.units.p_edge))
+        """Unknowns of a film at edge pressure, in grooves of a supply at theirs."""
+        pressure = np.full(self.work.u.shape, self.units.p_edge)
+        put_in_grooves(self.units, self.film.held, pressure)
+        return self.units.unknown_of(pressure)
 
     def estimates(self, force: Array, speed: Array, lines: Array) -> Array:
         """First positions (n, 4): closed form, as near as asperities and given tilt ask."""
@@ -138,7 +151,7 @@ class ComposedFilm:
         least = -2.0 * rough if rough > 0.0 else _ROOM
         for place, line in zip(places, lines):
             for _ in range(60):
-                if self._least(place[None], line[None, 2:])[0] >= least:
+                if self.least(place[None], line[None, 2:])[0] >= least:
                     break
                 place[:2] *= 0.9
         return places
@@ -147,7 +160,7 @@ class ComposedFilm:
         """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
         for share in SHARES:
             nearer = place * [share, share, 1.0, 1.0]
-            if self._least(nearer[None], bend[None])[0] > ShapedGap.first_gap:
+            if self.least(nearer[None], bend[None])[0] > ShapedGap.first_gap:
                 return share
         return 0.0
 
@@ -162,15 +175,15 @@ class ComposedFilm:
         """Whether the cells around resolve the narrowest gap of a rigid shell."""
         if self.film.give > 0.0:
             return True
-        narrow = self._least(position[None], self.work.bend[None])[0]
+        narrow = self.least(position[None], self.work.bend[None])[0]
         return self.units.resolves(np.array([1.0 - narrow, 0.0]))
 
     def touches(self, position: Array) -> bool:
         """Whether a rigid bore and a smooth shaft of given line touch at a position (4,)."""
         smooth = self.film.give == 0.0 and self.film.rough.size == 0.0 and self.size == 2
-        return smooth and bool(self._least(position[None], self.work.bend[None])[0] < TOUCHING)
+        return smooth and bool(self.least(position[None], self.work.bend[None])[0] < TOUCHING)
 
-    def _least(self, positions: Array, bends: Array) -> Array:
+    def least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
         gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
@@ -210,7 +223,7 @@ class ComposedFilm:
     def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
         if self.film.ring.shaped and self.film.give == 0.0:  # between the cells, too
-            rows[:, at.LEAST] = self._least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
+            rows[:, at.LEAST] = self.least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
         share = 0.5 if self.whole else 1.0  # the units are those of half of the width
         found = Integrals(
             peak=rows[:, at.PEAK],
@@ -228,6 +241,8 @@ class ComposedFilm:
             **without_supply(len(rows)),
             "supply_flow": self.units.pockets.flow_unit * share * rows[:, at.FED],
         }
+        if self.options.supply is not None:
+            values |= supplied(self.units, share * rows[:, at.RESULTS :])
         if self.whole:
             values["tilt"] = rows[:, [at.TILT_X, at.TILT_Y]] * clearance / self.bearing.radius
             values["moment"] = rows[:, [at.MOMENT_X, at.MOMENT_Y]] * self.bearing.radius
@@ -265,19 +280,21 @@ def build(
     half = float(units.mesh.z_edges[-1])
     whole = not line.straight
     layout, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
-    nodes = layout(half, points[level])
-    if not _resolves_relief(bearing, layout(half, points[0]).z):
-        nodes = layout(half, points[level + 1])
+    more = 0 if _resolves_relief(bearing, layout(half, points[0]).z) else 1
+    nodes = nodes_beside(options.supply, bearing, whole) or layout(half, points[level + more])
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options.cells[0])
+    held = held_points(units, options, nodes, ring.width.size)
+    ring = ring._replace(groove=ring.groove | (held.grooves >= 0).all(axis=1))
     places = _places(bearing, nodes.z, half, whole)
     film = Composed(
         ring, nodes, places, lanes_of(nodes, places.depth), _give(bearing, options),
         _rough(bearing, options.contact, whole, units),
         _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
+        held,
     )  # fmt: skip
-    work = make_work(ring.width.size, nodes, places.z.size)
+    work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
     return ComposedFilm(bearing, options, line, units, film, work)
 
 
@@ -302,6 +319,11 @@ def _depth(bearing: JournalGeometry, z: Array) -> Array:
     for part in bearing.relief:
         depth += part.added(np.zeros(1), z * bearing.radius, bearing.width)[0] / bearing.clearance
     return depth
+
+
+def levels_of(options: Film) -> range:
+    """Levels of points across that a film may ask for; beside grooves there is one."""
+    return LEVELS if options.supply is None else LEVELS[:1]
 
 
 def warn_unresolved(left: NDArray[np.bool_], first: str) -> None:

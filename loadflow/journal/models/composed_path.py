@@ -20,6 +20,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models._pad_kernels import LAST
 from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_model import (
     LEVELS,
@@ -44,12 +45,13 @@ from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
+STEP_BEFORE = 4  # of the `past` of a state: the step to its last time, s; 0 at the first one
 _NO_SLOPES = np.zeros((2, 0, 0))
 _STRETCH = 24  # samples that take more points together
 _LONG = 240  # samples that are tried with few; calls of fewer cost
 
 
-class _State(NamedTuple):
+class State(NamedTuple):
     """Film and shaft at the last time, and at the one before; shapes as in `ComposedWork`.
 
     `tilts` (4, p) and `on` (p,) are those of `PadWork` where pads tilt.
@@ -66,7 +68,7 @@ class _State(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Drive:
+class Drive:
     """What drives a path, its limits, and its films, one for each level that has been asked for."""
 
     bearing: JournalGeometry
@@ -94,11 +96,12 @@ class _Drive:
         return self.films[level]
 
 
-class _March:
+class March:
     """The loops over what drives a path, and the rows that they fill."""
 
-    def __init__(self, drive: _Drive, steps: Steps) -> None:
+    def __init__(self, drive: Drive, steps: Steps) -> None:
         self.drive, self.start = drive, steps.start
+        self.levels = LEVELS if drive.options.supply is None else LEVELS[:1]
         self.model = model = drive.film(LEVELS[0])
         contact = drive.options.contact
         rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
@@ -107,7 +110,7 @@ class _March:
         self.warmth, self.states = slow_states(
             drive.options, model.units, share, rub, steps.temperature, drive.time.size
         )
-        self.rows = np.zeros((drive.time.size, at.RESULTS))
+        self.rows = np.zeros((drive.time.size, model.columns))
         self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
         self.typical = float(drive.specific_load.mean())
 
@@ -126,9 +129,9 @@ class _March:
         some = slice(begin, end)
         rows, force = self.rows[some], self.drive.force[some]
         missed = self.model.unresolved_on_path(rows, force, self.typical)
-        return level == LEVELS[-1] or not missed.any()
+        return level == self.levels[-1] or not missed.any()
 
-    def begins(self, level: int, begin: Callable[[], Array]) -> _State | None:
+    def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, and where the shaft is; None where it is not found."""
         model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
         work, size = model.work, model.size if self.start is None else 0
@@ -145,9 +148,9 @@ class _March:
                 found = self.solve(level, place, moving, 0, 1, most)
         bend = self.lines[0, 2:]
         past = np.concatenate([bend, bend, [0.0]])
-        return _State(level, work.u.copy(), work.u.copy(), place, place, past) if found else None
+        return State(level, work.u.copy(), work.u.copy(), place, place, past) if found else None
 
-    def goes_on(self, state: _State, level: int, begin: int, end: int) -> _State | None:
+    def goes_on(self, state: State, level: int, begin: int, end: int) -> State | None:
         """The film after the samples `begin` … `end`; None where it is not found."""
         model = self.drive.film(level)
         work, place = model.work, state.place.copy()
@@ -159,7 +162,7 @@ class _March:
         if not self.solve(level, place, model.size, begin, end, most):
             return None
         last, before, earlier = work.last.copy(), work.before.copy(), work.places[0].copy()
-        return _State(level, last, before, place, earlier, work.past.copy())
+        return State(level, last, before, place, earlier, work.past.copy())
 
     def _moved(self, unknowns: Array, level: int, other: int) -> Array:
         """Unknowns (nx, L) at the points of another level."""
@@ -172,16 +175,21 @@ class _March:
         moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
         return moved
 
+    def least(self, state: State) -> float:
+        """Narrowest gap that a state leaves in a rigid shell, clearances."""
+        model = self.drive.film(state.level)
+        return float(model.least(state.place[None], state.past[None, 2:4])[0])
+
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""
         speed = self.drive.speed * self.states[:, THIN]
         return self.model.results(self.rows, speed, self.lines)
 
 
-class _OnPads(_March):
+class _OnPads(March):
     """The same on pads that tilt, which begin as those of the grid."""
 
-    def __init__(self, drive: _Drive, steps: Steps) -> None:
+    def __init__(self, drive: Drive, steps: Steps) -> None:
         super().__init__(drive, steps)
         limits = replace(drive.control, max_iterations=2 * drive.control.max_iterations)
         film, line = drive.options.isothermal(), drive.line.at(np.array([0]))
@@ -207,7 +215,7 @@ class _OnPads(_March):
         )  # fmt: skip
         return bool(self.rows[solved - 1, at.CONVERGED])
 
-    def begins(self, level: int, begin: Callable[[], Array]) -> _State | None:
+    def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, near the place of the grid; None where it is not found."""
         model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
         work, (_, pad_work), bend = model.work, self.pads_at(level), self.lines[0, 2:]
@@ -218,16 +226,23 @@ class _OnPads(_March):
         if not [self.solve(level, place, size, 0, 1, most) for size in sizes][-1]:
             return None
         past = np.concatenate([bend, bend, [0.0]])
-        begun = _State(level, work.u.copy(), work.u.copy(), place, place, past)
+        begun = State(level, work.u.copy(), work.u.copy(), place, place, past)
         return begun._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
 
-    def goes_on(self, state: _State, level: int, begin: int, end: int) -> _State | None:
+    def goes_on(self, state: State, level: int, begin: int, end: int) -> State | None:
         _, pad_work = self.pads_at(level)
         pad_work.tilts[:], pad_work.on[:] = state.tilts, state.on
         after = super().goes_on(state, level, begin, end)
         if after is None:
             return None
         return after._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
+
+    def least(self, state: State) -> float:
+        model = self.drive.film(state.level)
+        centres = model.centres(state.place[None], state.past[None, 2:4])
+        assert state.tilts is not None
+        own, depth = state.tilts[None, LAST], model.film.places.depth
+        return float(narrowest_on_pads(self.drive.bearing, centres, depth, own)[0])
 
     def results(self) -> dict[str, Any]:
         bearing, some = self.drive.bearing, self.rows[:, : at.TILT_Y + 1]
@@ -238,6 +253,11 @@ class _OnPads(_March):
             "minimum_film": least * bearing.clearance,
             "pad_tilt": self.tilts * bearing.relative_clearance,
         }
+
+
+def march_of(drive: Drive, steps: Steps) -> March:
+    """The loops over a drive that its bore asks for."""
+    return (_OnPads if Bore.of(drive.bearing).pads else March)(drive, steps)
 
 
 def orbit(
@@ -265,16 +285,16 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    drive = _Drive(bearing, options, time, force, speed, line, control)
-    march = (_OnPads if Bore.of(bearing).pads else _March)(drive, steps)
+    drive = Drive(bearing, options, time, force, speed, line, control)
+    march = march_of(drive, steps)
     model, rows = march.model, march.rows
-    for level in LEVELS:
+    for level in march.levels:
         state = march.begins(level, begin)
         if state is not None and march.resolved(level, 0, 1):
             break
     if state is None:
         ratio = float(np.hypot(rows[0, at.X], rows[0, at.Y]))
-        raise no_start(force[0], speed[0], ratio, _found(rows[0]))
+        raise no_start(force[0], speed[0], ratio, found_in(rows[0]))
     done, looked_at = 1, 0
     while done < time.size:
         end, after = min(done + _LONG, time.size), None
@@ -282,14 +302,14 @@ def orbit(
             after, looked_at = march.goes_on(state, LEVELS[0], done, end), end
         if after is None or not march.resolved(LEVELS[0], done, end):
             end = min(done + _STRETCH, end)
-            for level in LEVELS:
+            for level in march.levels:
                 after = march.goes_on(state, level, done, end)
                 if after is not None and march.resolved(level, done, end):
                     break
         if after is None:
             last = done + int(np.argmin(rows[done:end, at.CONVERGED]))
             ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
-            raise stopped(time[last], force[last], speed[last], ratio, _found(rows[last]))
+            raise stopped(time[last], force[last], speed[last], ratio, found_in(rows[last]))
         done, state = end, after
     left = model.unresolved_on_path(rows, force)
     if left.any():
@@ -300,7 +320,7 @@ def orbit(
     return cooled(march.warmth, march.states, values)
 
 
-def _found(row: Array) -> tuple[float, float, float]:
+def found_in(row: Array) -> tuple[float, float, float]:
     """Residual, its rounding level, and Newton steps of a row."""
     residual, rounding, iterations = row[[at.RESIDUAL, at.ROUNDING, at.ITERATIONS]].tolist()
     return residual, rounding, iterations

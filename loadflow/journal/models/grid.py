@@ -33,7 +33,6 @@ from loadflow.journal.solvers.transient import (
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.journal.solvers.warm_mean import MeanHeat, mean_heat
 from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
@@ -103,11 +102,7 @@ def _path(
 ) -> xr.Dataset:
     """The orbit on the cells of its film."""
     if steps.periodic:
-        check_period(time, force, speed)
-        still = all(
-            rows is None or bool(np.all(rows == rows[0])) for rows in (line.tilt, line.bend)
-        )
-        require(still, "tilt, bend", "of a closed orbit", "the same all the time")
+        check_period(time, force, speed, line)
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
     statics, forces = orbit_film(bearing, film, force, speed, line)
     # temperatures over the area, which the motion does not change

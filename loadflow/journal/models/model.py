@@ -186,6 +186,8 @@ def _pairs(
         pressure = bearing.shape.groove_pressure
         at_ends = 'that of the bearing ends on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
+    if film.rung == "reduced" and film.supply is not None:
+        yield from _beside_grooves(film, bearing)
     over_area = film.heat is not None and film.heat.over_area
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
@@ -214,6 +216,27 @@ def _pairs(
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
     allowed = 'None with heat that is stored, but on rung = "reduced"'
     yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
+
+
+def _beside_grooves(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
+    """What does not go with grooves on few points across the width; as `_pairs`."""
+    supply, on_few = film.supply, 'on rung = "reduced"'
+    assert supply is not None
+    yield "supply.pump", supply.pump, True, f"grooves of a given pressure {on_few}"
+    for number, groove in enumerate(supply.grooves):
+        name, given = f"supply.grooves[{number}]", f"a given pressure {on_few}"
+        yield f"{name}.restrictor", groove.restrictor, True, given
+        yield f"{name}.shape", groove.shape, groove.shape == "circle", f'"rectangle" {on_few}'
+    beside = f"none beside a supply {on_few}"
+    yield (
+        "shape",
+        bearing.shape,
+        bool(bearing.shape.segments),
+        f"a whole bore beside a supply {on_few}",
+    )
+    yield "relief", bearing.relief, bool(bearing.relief), beside
+    yield "shell", film.shell, True, beside
+    yield "contact", film.contact, True, beside
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

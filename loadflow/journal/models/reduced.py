@@ -2,9 +2,8 @@
 
 Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
 the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
-the shell: there is no inlet line, and no groove but those between fixed lobes. A film with a shaft
-that tilts or bends, asperities or a shell that gives way is one of
-`loadflow.journal.models.composed`.
+the shell: there is no inlet line. A film with a shaft that tilts or bends, asperities, a shell that
+gives way or grooves of a supply is one of `loadflow.journal.models.composed`.
 """
 
 from __future__ import annotations
@@ -24,7 +23,7 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed, composed_path, grid
+from loadflow.journal.models import composed, composed_closed, composed_path, grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.finer_orbit import on_enough_cells
@@ -43,6 +42,7 @@ from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
+from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
 from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset
 from loadflow.numerics.convergence import Limits
 
@@ -179,6 +179,15 @@ def _path(
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
+    if steps.periodic:
+        check_period(time, force, speed, line)
+        if not (bearing.shape.segments or bearing.relief or options.supply or not line.straight):
+            check_half_speed_whirl(time, force, speed)
+        values, about = composed_closed.orbit(
+            bearing, options, time, force, speed, line, control, steps, first_position
+        )
+        path = orbit_dataset(values, time, force, speed, bearing.clearance)
+        return path.assign_attrs(about)
     if Bore.of(bearing).pads or composed.composes(bearing, options, line):
         values = composed_path.orbit(
             bearing, options, time, force, speed, line, control, steps, first_position

@@ -98,14 +98,19 @@ def units_of(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteF
 
 def ring_of(film: DiscreteFilm, share: float) -> Ring:
     """Cells of the grid's `film`; the points across are those of 1/`share` of the width."""
-    angle = film.mesh.angle
-    count, step = angle.size, 2.0 * np.pi / angle.size
-    face, even = angle + 0.5 * step, np.full(count, step)
+    angle, count = film.mesh.angle, film.mesh.angle.size
+    if film.pockets.count:  # cells end where grooves do
+        width = film.mesh.dx
+        face, middle = film.mesh.edges[1:], width * np.sinc(0.5 * width / np.pi)
+    else:
+        width = middle = np.full(count, 2.0 * np.pi / count)
+        face = angle + 0.5 * width
+    half = 0.5 * width
     return Ring(
         cos=np.cos(angle), sin=np.sin(angle), cos_face=np.cos(face), sin_face=np.sin(face),
-        load_x=step * np.cos(angle), load_y=step * np.sin(angle),
-        base=np.ones(count), base_face=np.ones(count), width=even, apart=even,
-        groove=np.zeros(count, dtype=bool), back=0.5 * even,
+        load_x=middle * np.cos(angle), load_y=middle * np.sin(angle),
+        base=np.ones(count), base_face=np.ones(count), width=width, apart=half + np.roll(half, -1),
+        groove=np.zeros(count, dtype=bool), back=half,
         lobe=np.outer([1.0, 0.0, 0.0], np.ones(count)), shaped=False, order=film.mesh.order,
         law=film.law.address, numbers=np.array(film.law.numbers),
         edge_fill=film.law.fill_at(film.p_edge), scale=film.scale, p_edge=film.p_edge,

@@ -121,11 +121,14 @@ def cooled(warmth: Warmth, states: Array, values: dict[str, Any]) -> dict[str, A
             f"the film warms beyond {HOTTEST} K: it reaches {warm.max():.5g} K at sample "
             f"{int(np.argmax(warm))}"
         )
-    thinner = {name: values[name] / states[:, THIN] for name in _SCALED if name in values}
+    thin = states[:, THIN]
+    thinner = {name: (values[name].T / thin).T for name in _SCALED if name in values}
     return values | thinner | {"temperature": warm}
 
 
-_SCALED = ("friction_power", "contact_power", "side_flow")
+_SCALED = (
+    "friction_power", "contact_power", "side_flow", "supply_flow", "supply_power", "groove_flow",
+)  # fmt: skip
 
 
 def _warmth_of(heat: Heat, viscosity: float, flow: float, drag: float, rub: float) -> Warmth:

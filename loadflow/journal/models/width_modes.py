@@ -82,8 +82,8 @@ class Nodes(NamedTuple):
     """Points across the width at which the gap is taken, and polynomials of the pressure on them.
 
     The pressure above that of the ends is q at m inner points, which come first, and 0 at the
-    bearing ends, which follow: l points in all, those of a rule of Gauss and Lobatto. Lengths are
-    in shaft radii.
+    bearing ends, which are the last ones: l points in all, those of a rule of Gauss and Lobatto.
+    Lengths are in shaft radii.
 
     Attributes
     ----------
@@ -99,6 +99,8 @@ class Nodes(NamedTuple):
         Values at places close by each other, from those at the points.
     highest : array (g, m)
         Share of the highest polynomials L_{n+1} − L_{n−1} of Legendre's, an even and an odd one.
+    below : array (m,)
+        Share of the width of an inner point that lies on its side of smaller z.
     width, widest : float
         Sum of the weights, and largest one.
     """
@@ -109,6 +111,7 @@ class Nodes(NamedTuple):
     ends: Array
     fine: Array
     highest: Array
+    below: Array
     width: float
     widest: float
 
@@ -131,6 +134,7 @@ def whole_width(half_width: float, points: int) -> Nodes:
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
         highest=_shares(zeta[inner], np.arange(1, points + 1))[-2:],
+        below=np.full(points, 0.5),
         width=half_width * float(weights.sum()),
         widest=half_width * float(weights.max()),
     )
@@ -153,8 +157,89 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
         highest=_shares(zeta[inner], 2 * np.arange(points) + 1)[-1:],
+        below=np.full(points, 0.5),
         width=half_width * float(weights[order].sum()),
         widest=half_width * float(weights[order].max()),
+    )
+
+
+_NO_WIDTH = 1e-6  # root of the width of a point that stands for the bend between two stretches
+
+
+@lru_cache(maxsize=8)
+def stretched_width(
+    half_width: float, marks: tuple[float, ...], points: tuple[int, int], whole: bool
+) -> Nodes:
+    """Polynomials over stretches of the width, between which the slope may bend.
+
+    Where two stretches meet the flow has a slope on either side. What both make is that of their
+    mean, at the point itself, and of their difference, at a second point of next to no width.
+
+    Parameters
+    ----------
+    half_width : float
+        Shaft radii.
+    marks : tuple of float
+        Where stretches meet: shares of the half width, increasing, on both sides of mid-plane.
+    points : tuple of int
+        Inside half of the stretch about mid-plane, and inside each of the others.
+    whole : bool
+        The whole width, or even polynomials over the half of it.
+    """
+    edges = np.array([-1.0, *(-mark for mark in reversed(marks)), *marks, 1.0])
+    degrees = [points[1] + 1] * (edges.size - 1)
+    degrees[len(marks)] = 2 * points[0] + 1
+    count, places = sum(degrees) + 1, np.linspace(-1.0 if whole else 0.0, 1.0, _FINE)
+    z, own, mean = np.zeros(count), np.zeros(count), np.zeros((count, count))
+    fine, highest, begins = np.zeros((_FINE, count)), [], [0]
+    pairs: list[tuple[float, Array]] = []  # weight and slopes on either side of each mark
+    for low, high, degree in zip(edges[:-1], edges[1:], degrees):
+        zeta, weights = _lobatto_rule(degree)
+        half, here = 0.5 * (high - low), slice(begins[-1], begins[-1] + degree + 1)
+        slopes = np.zeros((degree + 1, count))
+        slopes[:, here] = _derivative(zeta) / half
+        z[here], weights = low + half * (1.0 + zeta), weights * half
+        own[here] += weights
+        mean[here] += weights[:, None] * slopes
+        pairs += [(weights[0], slopes[0]), (weights[-1], slopes[-1])]
+        within = (places >= low) & (places <= high)
+        fine[within] = 0.0
+        fine[np.ix_(within, np.arange(count)[here])] = _interpolation(
+            zeta, (places[within] - low) / half - 1.0
+        )
+        highest.append(np.zeros(count))
+        highest[-1][here] = np.linalg.inv(legendre.legvander(zeta, degree))[-1]
+        begins.append(begins[-1] + degree)
+    mean /= own[:, None]
+    bends, below = np.array(begins[1:-1], dtype=int), np.full(count, 0.5)
+    weight: list[float] = []
+    jump = np.zeros((bends.size, count))
+    for (left, behind), (right, ahead) in zip(pairs[1:-1:2], pairs[2:-1:2]):
+        below[bends[len(weight)]] = left / (left + right)
+        jump[len(weight)] = (behind - ahead) / _NO_WIDTH
+        weight.append(_NO_WIDTH**2 * left * right / (left + right))
+    shown = np.ones(bends.size, dtype=bool) if whole else z[bends] > 0.0
+    unknown = np.arange(1, count - 1) if whole else np.flatnonzero(z > 0.0)[:-1]
+    ends = np.array([0, count - 1] if whole else [count - 1])
+
+    def of_unknown(rows: Array) -> Array:
+        even = rows[:, unknown] if whole else rows[:, unknown] + rows[:, count - 1 - unknown]
+        return np.ascontiguousarray(even)
+
+    order = np.concatenate([unknown, bends[shown], ends])
+    all_weights = np.concatenate([own[unknown], np.array(weight)[shown], own[ends]])
+    rows = np.concatenate([mean[unknown], jump[shown], mean[ends]])
+    real = np.concatenate([own[unknown], own[ends]])
+    return Nodes(
+        z=half_width * z[order],
+        weights=half_width * all_weights,
+        slopes=of_unknown(rows) / half_width,
+        ends=np.array([-1.0, 1.0] if whole else [1.0]),
+        fine=of_unknown(fine),
+        highest=of_unknown(np.array(highest if whole else highest[len(marks) :])),
+        below=below[unknown],
+        width=half_width * float(real.sum()),
+        widest=half_width * float(own[unknown].max()),
     )
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.line import Line
 from loadflow.journal.solvers.all_times import (
     can_close_at_once,
     solve_all_times,
@@ -21,23 +22,24 @@ from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.journal.solvers.transient import Marcher, march, orbit_row
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level
+from loadflow.numerics.fields import require
 from loadflow.tribology.film import effective_speed
 
 Array = NDArray[np.float64]
 Method = Literal["direct", "marching"]
 
-_DEPTH = 8  # periods that the direct method looks back
+DEPTH = 8  # periods that the direct method looks back
 _PERIODS = 3  # of it, after which all times are solved at once
 _STANDS = 1e-6  # share of the speed below which the effective speed is none
 
 
-def check_period(time: Array, force: Array, speed: Array) -> None:
-    """Refuse loads or speeds that do not end as they begin.
+def check_period(time: Array, force: Array, speed: Array, line: Line) -> None:
+    """Refuse loads or speeds that do not end as they begin, and a tilt that is not one.
 
     Raises
     ------
     InputError
-        Fewer than four samples, or first and last differ.
+        Fewer than four samples, or first and last differ; a tilt or bend that changes.
     """
     if time.size < 4:
         raise InputError(f"a period of {time.size} samples: give four or more, the last closing it")
@@ -48,6 +50,8 @@ def check_period(time: Array, force: Array, speed: Array) -> None:
                 f"{name} is {values[0]} at the start of the period and {values[-1]} at its end: "
                 "the last sample must close it"
             )
+    still = all(rows is None or bool(np.all(rows == rows[0])) for rows in (line.tilt, line.bend))
+    require(still, "tilt, bend", "of a closed orbit", "the same all the time")
 
 
 def load_speed(time: Array, force: Array) -> float:
@@ -100,7 +104,7 @@ def close_orbit(
     """
     period = time[-1] - time[0]
     past = marcher.begin(float(time[0]), start)
-    accelerate, residual = Anderson(_DEPTH), math.inf
+    accelerate, residual = Anderson(DEPTH), math.inf
     # both states are within a clearance; every step of the period adds its roundings
     rounding = rounding_level(float(time.size))
     for number in range(1, max_periods + 1):
@@ -122,10 +126,23 @@ def close_orbit(
             past = _mixed(marcher, accelerate, past, following)
         else:
             past = following
-    raise SolverError(
-        f"the orbit does not close: its ends differ by {residual:.3g} after {max_periods} "
-        f"periods, where rounding allows {rounding:.3g}, at ε = "
-        f"{math.hypot(*past[-1].position):.6g}; effective speed "
+    ratio = math.hypot(*past[-1].position)
+    raise not_closed(residual, rounding, max_periods, ratio, time, force, speed)
+
+
+def not_closed(
+    residual: float,
+    rounding: float,
+    periods: int,
+    ratio: float,
+    time: Array,
+    force: Array,
+    speed: Array,
+) -> SolverError:
+    """Say that an orbit does not close; `residual` is what its ends differ by, at `ratio`."""
+    return SolverError(
+        f"the orbit does not close: its ends differ by {residual:.3g} after {periods} periods, "
+        f"where rounding allows {rounding:.3g}, at ε = {ratio:.6g}; effective speed "
         f"{effective_speed(float(speed.mean()), load=load_speed(time, force)):.6g} rad/s"
     )
 
