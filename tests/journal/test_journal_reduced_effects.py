@@ -86,8 +86,12 @@ def test_the_half_width_is_that_of_the_aligned_film():
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_orbits_agree_with_the_grid(effect):
     film, line = EFFECTS[effect]
-    grid = BEARING.orbit(TIME, LOAD, SPEED, replace(FILM, grid=CELLS, **film), **line)
-    few = BEARING.orbit(TIME, LOAD, SPEED, replace(REDUCED, grid=CELLS, **film), **line)
+    some = slice(None, None, 3)  # both take the same steps
+    line = {name: values[some] for name, values in line.items()}
+    grid, few = (
+        BEARING.orbit(TIME[some], LOAD[some], SPEED, replace(one, grid=CELLS, **film), **line)
+        for one in (FILM, REDUCED)
+    )
     for name, bound in off(effect).items():
         assert apart(few, grid, name) < bound, name
     if line:

@@ -250,12 +250,11 @@ def _touch_shell(film, work, q):
     `work.pressed`, too.
     """
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
-    yielding, ring = film.yielding, film.ring
+    yielding, ring, give = film.yielding, film.ring, film.give
     p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
     pressed[:] = 0.0
     beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
     normal = 0.0
-    mode, low, high = work.modes[0], work.modes[1], work.modes[2]
     for g in range(yielding.z.size):
         z = yielding.z[g]
         mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
@@ -263,15 +262,12 @@ def _touch_shell(film, work, q):
         depth = yielding.depth[g]
         if not ring.shaped and 1.0 + depth - np.hypot(mid_x, mid_y) >= beyond:
             continue
+        there = give * _across(yielding.values[g], p[0], ring.p_edge)
         for i in range(nx):
             right = i + 1 if i + 1 < nx else 0
+            here, there = there, give * _across(yielding.values[g], p[right], ring.p_edge)
             step = ring.apart[i]
             wide, ex, ey = depth + ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
-            here, there = 0.0, 0.0
-            for k in range(m):
-                here += yielding.values[g, k] * (p[i, k] - ring.p_edge)
-                there += yielding.values[g, k] * (p[right, k] - ring.p_edge)
-            here, there = film.give * here, film.give * there
             edge = wide - ex * ring.cos[i] - ey * ring.sin[i] + here
             other = wide - ex * ring.cos[right] - ey * ring.sin[right] + there
             dip = 0.125 * step * step  # of a gap between two places, at most
@@ -279,39 +275,78 @@ def _touch_shell(film, work, q):
                 edge = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
             if ring.groove[right]:
                 other = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
-            if min(edge, other) - dip * np.hypot(ex, ey) >= beyond:
+            if min(edge, other) - dip * (abs(ex) + abs(ey)) >= beyond:
                 continue
-            weight = yielding.weights[g] * step / yielding.around * yielding.unit
-            low[:] = 0.0
-            high[:] = 0.0
-            for n in range(yielding.around):
-                share = (n + 0.5) / yielding.around
-                turn = share * step - ring.back[i]
-                ct, st = np.cos(turn), np.sin(turn)
-                c = ring.cos_face[i] * ct - ring.sin_face[i] * st
-                s = ring.sin_face[i] * ct + ring.cos_face[i] * st
-                h = wide - ex * c - ey * s + (1.0 - share) * here + share * there
+            total, along_x, along_y = 0.0, 0.0, 0.0
+            xx, xy, yy = 0.0, 0.0, 0.0
+            high_x, high_y, rise_x, rise_y = 0.0, 0.0, 0.0, 0.0
+            for n in range(yielding.share.size):
+                share, c, s = yielding.share[n], yielding.cos[i, n], yielding.sin[i, n]
+                h = wide - ex * c - ey * s + here + share * (there - here)
                 if h >= beyond:
                     continue
                 value, rise = _of_table(yielding, 2, h)
-                value, rise = weight * value, weight * rise
-                normal += value
-                mode[0], mode[1], mode[2], mode[3] = c, s, -z * s, z * c
-                for a in range(4):
-                    load[a] += value * mode[a]
-                    low[a] += (1.0 - share) * rise * mode[a]
-                    high[a] += share * rise * mode[a]
-                    for b in range(a + 1):
-                        stiffness[a, b] -= rise * mode[a] * mode[b]
-            for a in range(4):
+                value, rise = yielding.part[n] * value, yielding.part[n] * rise
+                total += value
+                along_x += value * c
+                along_y += value * s
+                by_x, by_y = rise * c, rise * s
+                rise_x += by_x
+                rise_y += by_y
+                high_x += share * by_x
+                high_y += share * by_y
+                xx += by_x * c
+                xy += by_x * s
+                yy += by_y * s
+            weight = yielding.weights[g] * step * yielding.unit
+            normal += weight * total
+            _add_modes(load, z, weight * along_x, weight * along_y)
+            _take_modes(stiffness, z, weight * xx, weight * xy, weight * yy)
+            if give > 0.0:
+                weight *= give
+                low_x, low_y = weight * (rise_x - high_x), weight * (rise_y - high_y)
+                high_x, high_y = weight * high_x, weight * high_y
                 for k in range(m):
-                    by_pressure = film.give * yielding.values[g, k]
-                    pressed[a, i, k] += by_pressure * low[a]
-                    pressed[a, right, k] += by_pressure * high[a]
+                    value = yielding.values[g, k]
+                    _add_modes(pressed[:, i, k], z, value * low_x, value * low_y)
+                    _add_modes(pressed[:, right, k], z, value * high_x, value * high_y)
     for a in range(4):
         for b in range(a):
             stiffness[b, a] = stiffness[a, b]
     return normal
+
+
+@inner
+def _across(values, pressure, outside):
+    """Pressure above that `outside` at a place across, from that at the points."""
+    total = 0.0
+    for k in range(values.size):
+        total += values[k] * (pressure[k] - outside)
+    return total
+
+
+@inner
+def _add_modes(sums, z, x, y):
+    """Add a load at a place `z` along the shaft to forces and moments (4,)."""
+    sums[0] += x
+    sums[1] += y
+    sums[2] -= z * y
+    sums[3] += z * x
+
+
+@inner
+def _take_modes(stiffness, z, xx, xy, yy):
+    """Take the rise of a load at `z` from the lower half of a stiffness (4, 4)."""
+    stiffness[0, 0] -= xx
+    stiffness[1, 0] -= xy
+    stiffness[1, 1] -= yy
+    stiffness[2, 0] += z * xy
+    stiffness[2, 1] += z * yy
+    stiffness[2, 2] -= z * z * yy
+    stiffness[3, 0] -= z * xx
+    stiffness[3, 1] -= z * xy
+    stiffness[3, 2] += z * z * xy
+    stiffness[3, 3] -= z * z * xx
 
 
 @inner

@@ -146,8 +146,10 @@ class Yielding(NamedTuple):
     z, weights, depth : array (g,)
         These places, shaft radii, their share of the whole width, shaft radii, and what a relief
         widens the bore there, clearances.
-    around : int
-        Places in a cell around.
+    share, part : array (n,)
+        Places between a cell centre and the next one, and their weights, shares of the way.
+    cos, sin : array (nx, n)
+        Of these places.
     unit : float
         Load, N, over ∫∫ of asperity pressure over K E*, in shaft radii.
     """
@@ -160,12 +162,19 @@ class Yielding(NamedTuple):
     z: Array
     weights: Array
     depth: Array
-    around: int
+    share: Array
+    part: Array
+    cos: Array
+    sin: Array
     unit: float
 
 
 _NONE = np.zeros(1)
-RIGID = Yielding(False, 0.0, 1.0, np.zeros((4, 2)), np.zeros((1, 1)), _NONE, _NONE, _NONE, 1, 0.0)
+_NONE_AROUND = np.zeros((1, 1))
+RIGID = Yielding(
+    False, 0.0, 1.0, np.zeros((4, 2)), _NONE_AROUND, _NONE, _NONE, _NONE, _NONE, _NONE,
+    _NONE_AROUND, _NONE_AROUND, 0.0,
+)  # fmt: skip
 
 
 class Regime(NamedTuple):
@@ -272,8 +281,6 @@ class ComposedWork(NamedTuple):
         Reynolds number of a gap of the clearance, and over its critical value.
     step : array (4,)
         Newton step of the shaft.
-    modes : array (3, 4)
-        Sums of `_composed_gap_kernels.touch`.
     places : array (3, 4)
         Position at the time before the last, the next one, and its load.
     past : array (5,)
@@ -307,7 +314,6 @@ class ComposedWork(NamedTuple):
     pressed: Array
     numbers: Array
     step: Array
-    modes: Array
     places: Array
     past: Array
     kept: Array
@@ -341,7 +347,6 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         pressed=np.zeros((4, around, inner)),
         numbers=np.zeros(2),
         step=np.zeros(4),
-        modes=np.zeros((3, 4)),
         places=np.zeros((3, 4)),
         past=np.zeros(5),
         kept=np.zeros(2),

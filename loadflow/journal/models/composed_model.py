@@ -42,7 +42,7 @@ from loadflow.journal.models.composed_supply import (
     put_in_grooves,
     supplied,
 )
-from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
+from loadflow.journal.models.ring import Ring, estimates, lobed, ring_of, units_of
 from loadflow.journal.models.width_modes import at_places, half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
@@ -60,7 +60,8 @@ _WIDENED = 0.01  # of the largest depth
 _BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
 _LINES = 32  # across, on which the asperities of a shaft that tilts are asked
 _PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over the roughness
-_AROUND = np.radians(0.75)  # largest distance of places at which asperities on a shell are asked
+_AROUND = np.radians(1.5)  # of a cell for each place, of Gauss, at which asperities are asked
+_LEAST_AROUND = 3  # such places in a cell
 _TOUCHES = 8.5  # film parameter above which asperities on a shell carry nothing, to rounding
 _LONGEST = 20000  # entries of a table of these
 _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft must leave
@@ -291,7 +292,7 @@ def build(
     film = Composed(
         ring, nodes, places, lanes_of(nodes, places.depth), _give(bearing, options),
         _rough(bearing, options.contact, whole, units),
-        _yielding(bearing, options, whole, nodes.slopes.shape[1]), _regime(bearing, options),
+        _yielding(bearing, options, whole, nodes.slopes.shape[1], ring), _regime(bearing, options),
         held,
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
@@ -353,7 +354,9 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
     return local.compliance / bearing.clearance
 
 
-def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int) -> Yielding:
+def _yielding(
+    bearing: JournalGeometry, options: Film, whole: bool, points: int, ring: Ring
+) -> Yielding:
     """Asperities on a shell that gives way; `points` across carry the pressure."""
     contact, give = options.contact, _give(bearing, options)
     if contact is None or not (give or bearing.shape.segments or bearing.relief):
@@ -363,10 +366,14 @@ def _yielding(bearing: JournalGeometry, options: Film, whole: bool, points: int)
     if not whole:
         x, w = 0.5 * (1.0 + x), w  # both halves are alike
     first, step, table = _yielding_gap(contact, bearing.clearance, give)
-    around = 2.0 * np.pi / options.cells[0]
+    places = max(int(np.ceil(2.0 * np.pi / options.cells[0] / _AROUND)), _LEAST_AROUND)
+    share, part = np.polynomial.legendre.leggauss(places)
+    share, part = 0.5 * (1.0 + share), 0.5 * part
+    turns = np.outer(ring.apart, share) - ring.back[:, None]
+    at = (ring.cos_face + 1j * ring.sin_face)[:, None] * np.exp(1j * turns)
     return Yielding(
         True, first, step, table, at_places(points, whole, x), half * x, half * w,
-        _depth(bearing, half * x), int(np.ceil(around / _AROUND)),
+        _depth(bearing, half * x), share, part, at.real.copy(), at.imag.copy(),
         contact.asperities.scale * bearing.radius**2,
     )  # fmt: skip
 
