@@ -4,35 +4,29 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from functools import lru_cache
 from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicHermiteSpline
 
 from loadflow.errors import ValidityWarning
 from loadflow.journal.contact import Contact
-from loadflow.journal.film._rough_kernels import NO_CONTACT
-from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_rough import RoughGap, Roughness
+from loadflow.journal.film.gap_rough import RoughGap
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models.composed_contact import depth_at, rough_of, yielding_of
 from loadflow.journal.models.composed_film import (
     LAMINAR,
-    RIGID,
     Composed,
     ComposedWork,
     Places,
     Regime,
-    Rough,
-    Yielding,
     lanes_of,
     make_work,
 )
@@ -42,13 +36,12 @@ from loadflow.journal.models.composed_supply import (
     put_in_grooves,
     supplied,
 )
-from loadflow.journal.models.ring import Ring, estimates, lobed, ring_of, units_of
-from loadflow.journal.models.width_modes import at_places, half_width_nodes, whole_width
+from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
+from loadflow.journal.models.width_modes import half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import SHARES
 from loadflow.journal.solvers.load_stepping import TOUCHING
-from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
 
@@ -58,12 +51,6 @@ LEVELS = range(2)
 _ON_A_CROWN = 3  # points that either end of a relief asks for: two leave its side flow 8 % off
 _WIDENED = 0.01  # of the largest depth
 _BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
-_LINES = 32  # across, on which the asperities of a shaft that tilts are asked
-_PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over the roughness
-_AROUND = np.radians(1.5)  # of a cell for each place, of Gauss, at which asperities are asked
-_LEAST_AROUND = 3  # such places in a cell
-_TOUCHES = 8.5  # film parameter above which asperities on a shell carry nothing, to rounding
-_LONGEST = 20000  # entries of a table of these
 _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft must leave
 _UNRESOLVED = 0.08  # highest polynomials over the largest pressure: beyond, there are too few
 
@@ -257,7 +244,7 @@ class ComposedFilm:
     def _rubbing(self, contact: Contact, rows: Array, speed: Array) -> dict[str, Any]:
         """What the asperities carry and lose, and the mean gap between them."""
         clearance, planes = self.bearing.clearance, rows[:, at.LEAST]
-        gap = _rough_gap(contact, self.units, clearance)
+        gap = RoughGap(self.units.mesh, contact, clearance)
         force = rows[:, [at.CONTACT_X, at.CONTACT_Y]]
         touching = planes * clearance < contact.asperities.reach
         heights = np.where(touching, planes, 1.0) * clearance
@@ -289,11 +276,12 @@ def build(
     held = held_points(units, options, nodes, ring.width.size)
     ring = ring._replace(groove=ring.groove | (held.grooves >= 0).all(axis=1))
     places = _places(bearing, nodes.z, half, whole)
+    give = _give(bearing, options)
     film = Composed(
-        ring, nodes, places, lanes_of(nodes, places.depth), _give(bearing, options),
-        _rough(bearing, options.contact, whole, units),
-        _yielding(bearing, options, whole, nodes.slopes.shape[1], ring), _regime(bearing, options),
-        held,
+        ring, nodes, places, lanes_of(nodes, places.depth), give,
+        rough_of(bearing, options.contact, whole, units),
+        yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring),
+        _regime(bearing, options), held,
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
     return ComposedFilm(bearing, options, line, units, film, work)
@@ -304,22 +292,14 @@ def _places(bearing: JournalGeometry, points: Array, half: float, whole: bool) -
     if not bearing.relief:
         return Places(points, np.zeros(points.size))
     z = np.append(points, np.linspace(-half if whole else 0.0, half, _BETWEEN))
-    return Places(z, _depth(bearing, z))
+    return Places(z, depth_at(bearing, z))
 
 
 def _resolves_relief(bearing: JournalGeometry, points: Array) -> bool:
     """Whether enough of the points across lie where a relief widens the bore."""
-    depth = np.abs(_depth(bearing, points))
+    depth = np.abs(depth_at(bearing, points))
     widened = (points > 0.0) & (depth > _WIDENED * depth.max())
     return not depth.any() or int(widened.sum()) > _ON_A_CROWN
-
-
-def _depth(bearing: JournalGeometry, z: Array) -> Array:
-    """What the relief widens the bore at `z`, shaft radii, in clearances; alike all around."""
-    depth = np.zeros(z.size)
-    for part in bearing.relief:
-        depth += part.added(np.zeros(1), z * bearing.radius, bearing.width)[0] / bearing.clearance
-    return depth
 
 
 def levels_of(options: Film) -> range:
@@ -354,50 +334,6 @@ def _give(bearing: JournalGeometry, options: Film) -> float:
     return local.compliance / bearing.clearance
 
 
-def _yielding(
-    bearing: JournalGeometry, options: Film, whole: bool, points: int, ring: Ring
-) -> Yielding:
-    """Asperities on a shell that gives way; `points` across carry the pressure."""
-    contact, give = options.contact, _give(bearing, options)
-    if contact is None or not (give or bearing.shape.segments or bearing.relief):
-        return RIGID
-    half = bearing.width / bearing.diameter
-    x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)
-    if not whole:
-        x, w = 0.5 * (1.0 + x), w  # both halves are alike
-    first, step, table = _yielding_gap(contact, bearing.clearance, give)
-    places = max(int(np.ceil(2.0 * np.pi / options.cells[0] / _AROUND)), _LEAST_AROUND)
-    share, part = np.polynomial.legendre.leggauss(places)
-    share, part = 0.5 * (1.0 + share), 0.5 * part
-    turns = np.outer(ring.apart, share) - ring.back[:, None]
-    at = (ring.cos_face + 1j * ring.sin_face)[:, None] * np.exp(1j * turns)
-    return Yielding(
-        True, first, step, table, at_places(points, whole, x), half * x, half * w,
-        _depth(bearing, half * x), share, part, at.real.copy(), at.imag.copy(),
-        contact.asperities.scale * bearing.radius**2,
-    )  # fmt: skip
-
-
-@lru_cache(maxsize=8)
-def _yielding_gap(contact: Contact, clearance: float, give: float) -> tuple[float, float, Array]:
-    """Table of `Yielding` on a shell that gives way by `give`, clearances per Pa."""
-    rough = Roughness(contact, clearance, give * clearance)
-    lifted, size, summits = rough.yields
-    lowest = min(-rough.deepest, summits)
-    planes = np.arange(lowest, summits + (_TOUCHES + 1.0) * size, 0.2 * _PER_SIZE * size)
-    pairs = np.array([pressure_integral(h) for h in ((planes - summits) / size).tolist()])
-    value, slope = pairs[:, 0], pairs[:, 1] / size
-    share = 1.0 / (1.0 - lifted * slope)
-    gap = planes - lifted * value
-    step = max(_PER_SIZE * size, (summits + _TOUCHES * size - gap[0]) / _LONGEST)
-    wanted = np.arange(gap[0], summits + _TOUCHES * size, step)
-    opens = CubicHermiteSpline(gap, planes, share)(wanted)
-    at = np.array([pressure_integral(h) for h in ((opens - summits) / size).tolist()])
-    rise = at[:, 1] / size
-    opened = 1.0 / (1.0 - lifted * rise)
-    return float(wanted[0]), step, np.stack([opens, opened, at[:, 0], rise * opened])
-
-
 def _regime(bearing: JournalGeometry, options: Film) -> Regime:
     """Whether the flow may be turbulent."""
     if options.turbulence is None:
@@ -405,47 +341,3 @@ def _regime(bearing: JournalGeometry, options: Film) -> Regime:
     lengths = bearing.radius, bearing.relative_clearance
     at_one = options.turbulence.regime(*lengths, options.liquid).at(1.0)
     return Regime(True, *at_one)
-
-
-def _rough_gap(contact: Contact, units: DiscreteFilm, clearance: float) -> RoughGap:
-    return RoughGap(units.mesh, contact, clearance)
-
-
-def _rough(
-    bearing: JournalGeometry, contact: Contact | None, whole: bool, units: DiscreteFilm
-) -> Rough:
-    """Asperities of the surfaces; none where they are smooth."""
-    none = np.empty((0, 16))
-    if contact is None:
-        return Rough(0.0, none, none, 0.0, 0.0, 9.0, 1.0, np.zeros((4, 2)), np.zeros(1), np.ones(1))
-    gap = _rough_gap(contact, units, bearing.clearance)
-    size, along, across, slip, _ = gap.rough.numbers
-    first, step, table = _line_of_contact(contact, bearing.radius, bearing.clearance)
-    x, w = np.polynomial.legendre.leggauss(_LINES if whole else 1)
-    half = bearing.width / bearing.diameter
-    return Rough(
-        size, along, across, slip, gap.rough.deepest, first, step, table, half * x, half * w
-    )
-
-
-@lru_cache(maxsize=8)
-def _line_of_contact(
-    contact: Contact, radius: float, clearance: float
-) -> tuple[float, float, Array]:
-    """Table of what asperities carry on a shaft radius of width, over the eccentricity ratio."""
-    surfaces = CylinderLoad(contact, radius, radius, clearance)
-    size, tips = contact.asperities.roughness / clearance, contact.asperities.summit_height
-    step = _PER_SIZE * size
-    ratios = np.arange(1.0 - tips / clearance - NO_CONTACT * size, 1.0 + 0.04, step)
-    ratios = ratios[: int((NO_CONTACT + 9.0) / _PER_SIZE)]
-    touches = [surfaces.at(np.array([ratio, 0.0])) for ratio in ratios.tolist()]
-    normal = np.array([touch.normal for touch in touches])
-    table = np.stack(
-        [
-            [touch.load[0] for touch in touches],
-            [touch.stiffness[0, 0] for touch in touches],
-            normal,
-            np.gradient(normal, step),
-        ]
-    )
-    return float(ratios[0]), step, table

@@ -1,0 +1,125 @@
+"""Asperities of a reduced film with effects: tables of what they carry, and where it is asked."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline
+
+from loadflow.journal.contact import Contact
+from loadflow.journal.film._rough_kernels import NO_CONTACT
+from loadflow.journal.film.asperity_load import CylinderLoad
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_rough import RoughGap, Roughness
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.models.composed_film import RIGID, Rough, Yielding
+from loadflow.journal.models.ring import Ring
+from loadflow.journal.models.width_modes import at_places
+from loadflow.tribology.kernels import pressure_integral
+
+Array = NDArray[np.float64]
+
+_LINES = 32  # across, on which the asperities of a shaft that tilts are asked
+_PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over the roughness
+_AROUND = np.radians(1.5)  # of a cell for each place, of Gauss, at which asperities are asked
+_LEAST_AROUND = 3  # such places in a cell
+_TOUCHES = 8.5  # film parameter above which asperities on a shell carry nothing, to rounding
+_LONGEST = 20000  # entries of a table of these
+
+
+def depth_at(bearing: JournalGeometry, z: Array) -> Array:
+    """What the relief widens the bore at `z`, shaft radii, in clearances; alike all around."""
+    depth = np.zeros(z.size)
+    for part in bearing.relief:
+        depth += part.added(np.zeros(1), z * bearing.radius, bearing.width)[0] / bearing.clearance
+    return depth
+
+
+def rough_of(
+    bearing: JournalGeometry, contact: Contact | None, whole: bool, units: DiscreteFilm
+) -> Rough:
+    """Asperities of the surfaces; none where they are smooth."""
+    none = np.empty((0, 16))
+    if contact is None:
+        return Rough(0.0, none, none, 0.0, 0.0, 9.0, 1.0, np.zeros((4, 2)), np.zeros(1), np.ones(1))
+    gap = RoughGap(units.mesh, contact, bearing.clearance)
+    size, along, across, slip, _ = gap.rough.numbers
+    first, step, table = _line_of_contact(contact, bearing.radius, bearing.clearance)
+    x, w = np.polynomial.legendre.leggauss(_LINES if whole else 1)
+    half = bearing.width / bearing.diameter
+    return Rough(
+        size, along, across, slip, gap.rough.deepest, first, step, table, half * x, half * w
+    )
+
+
+@lru_cache(maxsize=8)
+def _line_of_contact(
+    contact: Contact, radius: float, clearance: float
+) -> tuple[float, float, Array]:
+    """Table of what asperities carry on a shaft radius of width, over the eccentricity ratio."""
+    surfaces = CylinderLoad(contact, radius, radius, clearance)
+    size, tips = contact.asperities.roughness / clearance, contact.asperities.summit_height
+    step = _PER_SIZE * size
+    ratios = np.arange(1.0 - tips / clearance - NO_CONTACT * size, 1.0 + 0.04, step)
+    ratios = ratios[: int((NO_CONTACT + 9.0) / _PER_SIZE)]
+    touches = [surfaces.at(np.array([ratio, 0.0])) for ratio in ratios.tolist()]
+    normal = np.array([touch.normal for touch in touches])
+    table = np.stack(
+        [
+            [touch.load[0] for touch in touches],
+            [touch.stiffness[0, 0] for touch in touches],
+            normal,
+            np.gradient(normal, step),
+        ]
+    )
+    return float(ratios[0]), step, table
+
+
+def yielding_of(
+    bearing: JournalGeometry, options: Film, give: float, whole: bool, points: int, ring: Ring
+) -> Yielding:
+    """Asperities on a shell that gives way by `give`, clearances per Pa, or in a shaped bore.
+
+    `points` across carry the pressure.
+    """
+    contact = options.contact
+    if contact is None or not (give or bearing.shape.segments or bearing.relief):
+        return RIGID
+    half = bearing.width / bearing.diameter
+    x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)
+    if not whole:
+        x, w = 0.5 * (1.0 + x), w  # both halves are alike
+    first, step, table = _yielding_gap(contact, bearing.clearance, give)
+    places = max(int(np.ceil(2.0 * np.pi / options.cells[0] / _AROUND)), _LEAST_AROUND)
+    share, part = np.polynomial.legendre.leggauss(places)
+    share, part = 0.5 * (1.0 + share), 0.5 * part
+    turns = np.outer(ring.apart, share) - ring.back[:, None]
+    at = (ring.cos_face + 1j * ring.sin_face)[:, None] * np.exp(1j * turns)
+    return Yielding(
+        True, first, step, table, at_places(points, whole, x), half * x, half * w,
+        depth_at(bearing, half * x), share, part, at.real.copy(), at.imag.copy(),
+        contact.asperities.scale * bearing.radius**2,
+    )  # fmt: skip
+
+
+@lru_cache(maxsize=8)
+def _yielding_gap(contact: Contact, clearance: float, give: float) -> tuple[float, float, Array]:
+    """Table of `Yielding` on a shell that gives way by `give`, clearances per Pa."""
+    rough = Roughness(contact, clearance, give * clearance)
+    lifted, size, summits = rough.yields
+    lowest = min(-rough.deepest, summits)
+    planes = np.arange(lowest, summits + (_TOUCHES + 1.0) * size, 0.2 * _PER_SIZE * size)
+    pairs = np.array([pressure_integral(h) for h in ((planes - summits) / size).tolist()])
+    value, slope = pairs[:, 0], pairs[:, 1] / size
+    share = 1.0 / (1.0 - lifted * slope)
+    gap = planes - lifted * value
+    step = max(_PER_SIZE * size, (summits + _TOUCHES * size - gap[0]) / _LONGEST)
+    wanted = np.arange(gap[0], summits + _TOUCHES * size, step)
+    opens = CubicHermiteSpline(gap, planes, share)(wanted)
+    at = np.array([pressure_integral(h) for h in ((opens - summits) / size).tolist()])
+    rise = at[:, 1] / size
+    opened = 1.0 / (1.0 - lifted * rise)
+    return float(wanted[0]), step, np.stack([opens, opened, at[:, 0], rise * opened])
