@@ -25,6 +25,8 @@ BEARING = SphericalRollerBearing(
     contact_angle=0.17,
     clearance=150e-6,
     slices=10,
+    profile="crowned",
+    crown_radius=16.0,
 )
 GREASE = FrictionOptions(
     oil=lubricant("lgep-2"), temperature=313.15, roughness=0.6e-6, starvation=0.7, roller_drag=1e-3
@@ -62,6 +64,10 @@ def main(wind_speed: float = 12.0, duration: float = 600.0, step: float = 0.05) 
         "roller bearing: mean friction power, W": friction.power.mean(),
         "roller bearing: mean friction torque, N m": friction.torque.mean(),
         "roller bearing: share of it lost in slip": friction.losses["slip"].mean()
+        / friction.power.mean(),
+        "roller bearing: share of it lost in differential slip": friction.losses[
+            "differential slip"
+        ].mean()
         / friction.power.mean(),
         "roller bearing: median Λ of loaded contacts": np.median(friction.film_parameter[pressed]),
         "roller bearing: mean slip, row upwind": slip.slip[:, 0].mean(),

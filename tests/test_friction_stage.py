@@ -49,6 +49,12 @@ def test_rollers_of_both_bearings_are_followed(tmp_path):
     assert (table["mean_friction_power"] > 0).all()
     assert (table["mean_friction_power"] < run.tree["journal"]["mean_friction_power"]).all()
     assert float(table["mean_slip"].sel(bearing="N2").max()) > 0.1  # thrust unloads a row
+    curved = table["mean_differential_slip_power"]  # of barrels
+    assert (curved > 0.1 * table["mean_friction_power"]).all()
+    assert (curved <= table["mean_slip_power"]).all()
+    assert curved.attrs == {
+        "units": "W", "long_name": "mean power lost in differential slip of curved contacts",
+    }  # fmt: skip
     assert "Friction of rolling bearings" in run.report.read_text(encoding="utf-8")
 
 
@@ -85,6 +91,8 @@ def test_tapered_rollers_rub_on_their_ribs_unless_the_scene_says_otherwise():
     assert 0.1 < 1 - float(none / usual) < 0.5
     options = friction_options(short().friction, main_bearings("two-spherical")["N"])
     assert options.rib_angle == 0.0
+    straight = losses_of(short(rolling=TAPERED, friction={"step": 2.0}))
+    assert (straight["differential_slip_power"] == 0).all()
 
 
 def test_churning_and_seals_of_the_scene_are_counted():
@@ -173,15 +181,6 @@ def test_friction_that_is_not_counted_is_told(given, left_out):
     told = [said for said in unused_warnings(short(friction=given)) if "not counted" in said]
     assert len(told) == (left_out is not None)
     assert all(said.startswith(f"friction: {left_out} of the rolling") for said in told)
-
-
-def test_the_sliding_of_barrels_is_told_not_to_be_counted():
-    def told(scene):
-        return [said for said in unused_warnings(scene) if "slide" in said]
-
-    (said,) = told(short(shaft={"two_point": {}}, bearings="two-spherical"))
-    assert "barrels in N, N2" in said
-    assert told(short(rolling=TAPERED)) == []
 
 
 def test_an_unknown_lubricant_is_refused_with_those_there_are():

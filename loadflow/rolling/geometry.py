@@ -146,11 +146,6 @@ class RollingGeometry(ABC):
         return False
 
     @property
-    def slides(self) -> bool:
-        """Whether rollers slide in raceways curved along them, which their friction leaves out."""
-        return False
-
-    @property
     def catalogue_kind(self) -> CatalogueKind | None:
         """Type of bearing in catalogues of friction; None where they have no constants here."""
         return None

@@ -215,6 +215,11 @@ class RollerRaceways(OneClearance):
         )
 
     @property
+    def contact_curvature(self) -> float:
+        """Curvature of the deformed contacts along the rollers, 1/m; 0 of straight raceways."""
+        return 0.0
+
+    @property
     def element_diameter(self) -> float:
         """Diameter of the rollers, m."""
         return self.roller_diameter

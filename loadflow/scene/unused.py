@@ -161,18 +161,12 @@ def friction_note(scene: Scene) -> tuple[str, ...]:
     options = scene.friction
     absent = {"churning": options.churning == Churning(), "seals": options.seal_torque == 0}
     left_out = [part for part, is_absent in absent.items() if is_absent]
-    said = []
-    if left_out:
-        said.append(
-            f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
-            "form is trustworthy; friction.churning and friction.seal_torque take measured ones"
-        )
-    if barrels := [place for place, one in scene.rolling.geometries.items() if one.slides]:
-        said.append(
-            f"friction: barrels in {', '.join(barrels)} slide in their curved raceways, which is "
-            "not counted; the torque after catalogues has it"
-        )
-    return tuple(said)
+    if not left_out:
+        return ()
+    return (
+        f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
+        "form is trustworthy; friction.churning and friction.seal_torque take measured ones",
+    )
 
 
 # --- loads ------------------------------------------------------------------------------------

@@ -30,7 +30,8 @@ KEPT = {
     "friction_power": ("W", "friction power"),
     "friction_torque": ("N m", "friction torque"),
     "film_parameter": ("1", "least Λ of the loaded contacts"),
-    "slip_power": ("W", "power lost in slip"),
+    "slip_power": ("W", "power lost in slip, differential slip with it"),
+    "differential_slip_power": ("W", "power lost in differential slip of curved contacts"),
     "slip": ("1", "slip of the slower row: missing spin of rollers, mean sliding of balls"),
     "slip_power_density": ("W/m^2", "largest slip power over contact area"),
 }
@@ -46,10 +47,10 @@ CATALOGUES = {
 def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
-    Every roller is followed through the whole series; balls slide where their contacts are curved
-    and where they spin; bearings that swing have their mean speed, or that of the pitch, and their
-    torque without load. Rings are
-    rigid. With a conductance each bearing finds its own temperature.
+    Every roller is followed through the whole series; balls and barrels slide where their contacts
+    are curved, balls where they spin; bearings that swing have their mean speed, or that of the
+    pitch, and their torque without load. Rings are rigid. With a conductance each bearing finds its
+    own temperature.
 
     Raises
     ------
@@ -127,13 +128,18 @@ def _rollers(
     """What is kept of a roller bearing, its rollers followed one by one."""
     result: Any = part.modelled.equilibrium(force, moment)
     found = roller_slip(result, time, speed, options)
+    density = found.slip_power_density
+    if found.friction.slip_power_density is not None:  # of barrels, which slide all the time
+        density = density + found.friction.slip_power_density
+    curved = found.friction.losses.get("differential slip", np.zeros_like(speed))
     return {
         "friction_power": found.friction.power,
         "friction_torque": found.friction.torque,
         "film_parameter": least_film_parameter(found.friction.film_parameter, result.roller_forces),
-        "slip_power": found.friction.losses["slip"],
+        "slip_power": found.friction.losses["slip"] + curved,
+        "differential_slip_power": curved,
         "slip": found.slip.mean(axis=-1).max(axis=-1),
-        "slip_power_density": found.slip_power_density.max(axis=(-2, -1)),
+        "slip_power_density": density.max(axis=(-2, -1)),
         "catalogues": torques_beside(result, speed, options, part.catalogue),
     }
 
@@ -154,12 +160,13 @@ def _balls(
         result = part.modelled.equilibrium(force[some], moment[some], speed=spun)
         found = result.friction(speed[some], options)
         least = least_film_parameter(found.film_parameter, result.ball_forces)
-        slip = found.losses["differential slip"] + found.losses["spin"]
+        curved = found.losses["differential slip"]
+        slip = curved + found.losses["spin"]
         assert found.sliding is not None
         assert found.slip_power_density is not None
         mean = _mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
-        parts.append((found.power, found.torque, least, slip, mean, density))
+        parts.append((found.power, found.torque, least, slip, curved, mean, density))
     kept = dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
     return kept | {"catalogues": {}}
 
@@ -202,6 +209,11 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "mean_friction_torque": (mean["friction_torque"], "N m", "mean friction torque"),
             **_mean_beside(mean),
             "mean_slip_power": (mean["slip_power"], "W", "mean power lost in slip"),
+            "mean_differential_slip_power": (
+                mean["differential_slip_power"],
+                "W",
+                "mean power lost in differential slip of curved contacts",
+            ),
             "median_film_parameter": (least, "1", "median of the least Λ"),
             **time_shares(samples, samples["friction_power"]),
             "mean_slip": (mean["slip"], "1", "mean slip of the slower row"),

@@ -284,9 +284,9 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         for name, torque in losses.torques.items():
             own = torque.sel(case=table["case"].values).sum("bearing").values
             yield name, _mean(run, own, share, groups, "N m")
-    slides = any(one.slides for one in run.scene.rolling.geometries.values())
-    note = "without slip, nor the sliding of barrels" if slides else "without slip"
-    yield from _lost(run, table, None if losses is None else losses.power, note)
+    yield from _lost(
+        run, table, None if losses is None else losses.power, "without slip of rollers"
+    )
 
 
 def _years(damage: np.ndarray, share: np.ndarray, slope: float, some: np.ndarray) -> float:

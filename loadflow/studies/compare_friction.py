@@ -31,7 +31,7 @@ TORQUES = {
 
 @dataclass(frozen=True)
 class Losses:
-    """Losses and films of rolling bearings in ideal rolling, without slip.
+    """Losses and films of rolling bearings in ideal rolling, without slip of rollers.
 
     Attributes
     ----------

@@ -67,9 +67,11 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
             )
 
     @property
-    def slides(self) -> bool:
-        """Barrels do: their raceways are spheres."""
-        return True
+    def contact_curvature(self) -> float:
+        """Midway between the raceways, the sphere of the outer ring and as curved, and barrels."""
+        sphere = self.pitch_diameter / 2 / math.cos(self.contact_angle) + self.roller_diameter / 2
+        closer = 0.0 if self.crown_radius is None else 1 / self.crown_radius
+        return 1 / sphere + closer / 2
 
     @property
     def catalogue_kind(self) -> CatalogueKind | None:

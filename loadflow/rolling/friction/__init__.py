@@ -12,6 +12,7 @@ energy              audit: shaft power = losses + stored energy
 contact_films       film of every roller and ball contact; `options`: lubricant, surfaces, ribs
 roller_losses       film, Λ and losses of a whole roller bearing in ideal rolling
 ball_losses         the same of ball and slewing bearings; `bearing`: what both share
+differential_slip   sliding in curved contacts: mean speed along barrels, friction coefficient
 heat                temperature at which losses and cooling balance
 catalogue           Stribeck, Palmgren, SKF; `catalogued`: those of a bearing under its loads
 slewing_torque      slewing bearings, from loads and from ball forces

@@ -29,12 +29,12 @@ from loadflow.rolling.friction.bearing import (
     contact_friction,
     sum_losses,
 )
-from loadflow.rolling.friction.contact_films import ContactFilm, Ring, groove_film
+from loadflow.rolling.friction.contact_films import Ring, groove_film
+from loadflow.rolling.friction.differential_slip import sliding_coefficient
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.results import ContactResult
-from loadflow.tribology import traction
 from loadflow.tribology.hertz import effective_modulus
 
 Array = NDArray[np.float64]
@@ -144,21 +144,5 @@ def _groove(
     deformed = 2 * groove * ball / (groove + ball)
     slip = u * across**2 / (2 * film.radius * deformed)
     sliding = _HEATHCOTE * slip + 3 / 8 * across * turning
-    coefficient = _coefficient(film, contact.share, sliding, options)
+    coefficient = sliding_coefficient(film, contact.share, sliding, options)
     return _Groove(contact, coefficient, across, slip, 2 * film.half_width * film.length)
-
-
-def _coefficient(
-    film: ContactFilm, share: Array, sliding: Array, options: FrictionOptions
-) -> Array:
-    """Friction coefficient of film and asperities at a sliding speed."""
-    oil = options.oil
-    limit = traction.limiting_stress(
-        film.pressure, oil.critical_stress, oil.critical_pressure, oil.limiting_slope
-    )
-    viscosity = oil.viscosity(options.temperature, film.pressure)
-    there = (film.film > 0) & (film.pressure > 0)
-    newton = traction.newtonian_stress(viscosity, sliding, np.where(there, film.film, 1.0))
-    stress = traction.smooth_stress(newton, limit)
-    fluid = np.divide(stress, film.pressure, out=np.zeros_like(stress), where=there)
-    return np.asarray((1 - share) * fluid + share * options.boundary_friction)

@@ -30,7 +30,8 @@ class BearingFriction:
         Speed of the inner less that of the outer ring, rad/s.
     losses : dict of str to ndarray, shape (...)
         Power of each component, W: hysteresis, rolling, drag, churning, seal; rib of roller
-        bearings; differential slip and spin of ball bearings.
+        bearings; differential slip of balls and of barrels (of these with the turning of the
+        rings about the contact's normal); spin of balls.
     film : ndarray
         Central film, m; very large where a turning contact has no load, 0 at standstill.
     film_parameter : ndarray
@@ -40,10 +41,10 @@ class BearingFriction:
     traction_use : ndarray, shape (..., row, element)
         Friction that ideal rolling needs over what both contacts can give.
     sliding : ndarray, shape (..., row, element), optional
-        Of balls: mean sliding speed in the contact over the rolling speed, from the curved contact
-        and from spin; 0 without load.
+        Of balls and barrels: mean sliding speed in the contact over the rolling speed, from the
+        curved contact and from spin; 0 without load.
     slip_power_density : ndarray, shape (..., row, element), optional
-        Of balls: power of that sliding over the area of the contact, W/m², the larger of both.
+        Of these: power of that sliding over the area of the contact, W/m², the larger of both.
 
     Examples
     --------

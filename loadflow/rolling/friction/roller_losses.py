@@ -1,11 +1,15 @@
 """Friction of a roller bearing in ideal rolling: film, Λ, and each component's loss.
 
 Rollers turn at ideal speed; what each contact must pull for that is compared with what it can
-(`traction_use`; above 1 the roller skids and its speed is a matter of dynamics). Losses are powers;
-the torque is their sum over the speed.
+(`traction_use`; above 1 the roller skids and its speed is a matter of dynamics). Barrels slide
+where their contacts are curved along them (`differential_slip`). Losses are powers; the torque is
+their sum over the speed.
 """
 
 from __future__ import annotations
+
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,10 +24,16 @@ from loadflow.rolling.friction.bearing import (
     sum_losses,
 )
 from loadflow.rolling.friction.contact_films import (
+    ContactFilm,
     Ring,
     line_film,
     raceway_radius,
     sphere_film,
+)
+from loadflow.rolling.friction.differential_slip import (
+    CurvedLines,
+    curved_lines,
+    sliding_coefficient,
 )
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.motion.kinematics import entrainment_speed
@@ -74,9 +84,44 @@ def roller_friction(
     force = np.broadcast_to(rollers, (*omega.shape, *rollers.shape[-2:]))
     mean = entrainment_speed(omega, 0.0, bearing.pitch_diameter, bearing.gamma)
     u = np.asarray(mean)[..., None, None]
-    contacts = [_contact(result, ring, force, u, options) for ring in RINGS]
+    films, contacts = zip(*(_contact(result, ring, force, u, options) for ring in RINGS))
     special = {"rib": _rib_loss(result, force, u, options)}
-    return sum_losses(omega, u, bearing.roller_diameter, contacts, special, options)
+    if not bearing.contact_curvature:
+        return sum_losses(omega, u, bearing.roller_diameter, contacts, special, options)
+    lines = curved_lines(bearing, force)
+    slips = [_barrel_slip(lines, *ring, force, u, options) for ring in zip(films, contacts)]
+    special["differential slip"] = np.asarray(slips[0].power + slips[1].power)
+    found = sum_losses(omega, u, bearing.roller_diameter, contacts, special, options)
+    return replace(
+        found,
+        sliding=np.maximum(slips[0].ratio, slips[1].ratio),
+        slip_power_density=np.maximum(slips[0].density, slips[1].density),
+    )
+
+
+class _Slip(NamedTuple):
+    """Of barrels on one ring: power, W, over the area, W/m², mean sliding over rolling speed."""
+
+    power: Array
+    density: Array
+    ratio: Array
+
+
+def _barrel_slip(
+    lines: CurvedLines,
+    film: ContactFilm,
+    contact: ContactFriction,
+    force: Array,
+    u: Array,
+    options: FrictionOptions,
+) -> _Slip:
+    """Differential slip of barrels on one ring."""
+    pressed = film._replace(pressure=film.pressure / lines.area)
+    ratio = np.where((force > 0) & (u > 0), lines.lever / film.radius, 0.0)
+    power = sliding_coefficient(pressed, contact.share, ratio * u, options) * force * ratio * u
+    area = 2 * film.half_width * film.length * lines.area
+    density = np.divide(power, area, out=np.zeros_like(power), where=area > 0)
+    return _Slip(np.asarray(power), density, ratio)
 
 
 def _rib_loss(
@@ -106,8 +151,8 @@ def _contact(
     force: Array,
     u: Array,
     options: FrictionOptions,
-) -> ContactFriction:
-    """Friction of all contacts with one ring."""
+) -> tuple[ContactFilm, ContactFriction]:
+    """Film and friction of all contacts with one ring."""
     bearing, oil, t = result.bearing, options.oil, options.temperature
     modulus = 2 * float(effective_modulus(bearing.elastic_modulus, bearing.poisson_ratio))
     length = bearing.roller_length
@@ -116,6 +161,5 @@ def _contact(
     viscosity, alpha = float(oil.viscosity(t)), float(oil.pressure_viscosity(t))
     rolling = resistance.hydrodynamic_force(force, length, radius, u, viscosity, alpha, modulus)
     moment = resistance.hysteresis_moment(force, film.half_width, options.hysteresis)
-    return contact_friction(
-        force, film, np.asarray(rolling), np.asarray(moment / (2 * radius)), options
-    )
+    hysteresis = np.asarray(moment / (2 * radius))
+    return film, contact_friction(force, film, np.asarray(rolling), hysteresis, options)
