@@ -188,7 +188,7 @@ def test_an_error_of_the_load_reaches_the_film_through_its_gain():
         name: expected_errors(scene)["journal.film"][name] - error
         for name, error in expected_errors(top)["journal.film"].items()
     }
-    load = ladder()["loads"]["tables"]["errors"]["bearing load max"]["max"]
+    load = ladder()["loads"]["tables"]["errors"]["radial force max"]["max"]
     assert added == {name: pytest.approx(load * gains()["journal"][name]) for name in added}
 
 
