@@ -183,7 +183,7 @@ def test_unanswered_samples_are_a_verdict(run):
 
 def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
     slow = case(8.0, 1, steps=100)
-    slow["speed"][50:60] = 0.003
+    slow["speed"][50:60] = 0.002
     file = save_cube(make_cube([slow]), tmp_path / "loads.h5")
     # at rest: in motion the squeezed film would last for these seconds
     film = FILM | {"motion": "quasi-static"}
