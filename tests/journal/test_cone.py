@@ -288,7 +288,8 @@ def test_results_are_labelled():
     cone = ConicalBearing(0.5, (1.0, 1.3), 2e-4)
     pair = ConicalPair(cone, cone, 1.0).pressure((5e-5, 0, 0), 1.0, FILM)
     assert pair.to_dataset().load_share.shape == (2,)
-    assert "left = ConicalResult" in repr(pair)
+    assert "PairResult" in repr(pair)
+    assert "h_min" in repr(pair)
 
 
 def test_orbit_stays_in_equilibrium_and_returns_to_it():

@@ -255,10 +255,13 @@ def test_what_no_film_carries_is_flagged_or_named():
         BEARING.equilibrium(forces, speeds, rung="reduced", **COARSE)
 
 
+SPOT = Groove(1.57, length=0.1, pressure=6e5, shape="circle")
+
+
 @pytest.mark.parametrize(
     ("options", "error", "message"),
     [
-        ({"supply": Supply([Groove(1.57, pressure=6e5)])}, InputError, "supply = "),
+        ({"supply": Supply([SPOT])}, InputError, r"supply\.grooves\[0\]"),
         ({"inlet": "widest gap"}, InputError, "inlet = 'widest gap'"),
         ({"cavitation": Reynolds()}, InputError, "inlet = 'auto'"),
         ({"grading": "graded"}, InputError, "grading = 'graded'"),

@@ -266,7 +266,8 @@ def test_results_are_labelled():
     found = LANDS.equilibrium(1e6, 10.0, lubricant=Lubricant(0.05), cavitation=Guembel())
     data = found.to_dataset()
     assert all({"units", "long_name"} <= set(v.attrs) for v in data.data_vars.values())
-    assert "minimum_film" in repr(found)
+    assert "ThrustResult" in repr(found)
+    assert "h_min" in repr(found)
     assert isinstance(
         RectangularThrustBearing(1, 10.0, 1.0, 1.0, profile=Step(1e-4)).row.angle, float
     )
