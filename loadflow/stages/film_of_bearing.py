@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import SolverError
+from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal import Control, Equilibrium, Film
 from loadflow.journal.grid_bounds import unresolved_counted
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_past import AT_REST, Past
@@ -30,8 +32,8 @@ def follow(
 ) -> xr.Dataset:
     """Follow the shaft through a series, from equilibrium or from the place `start` (2,), m.
 
-    With a `past` it goes through that before; where a film cannot be followed there, it begins at
-    rest under the first load.
+    With a `past` it goes through that before; where a film cannot be followed there, or for as long
+    after it as that is remembered, it begins at rest under the first load, with a warning.
 
     With heat the result has the `temperature` of the film: that of the whole series, or one that
     follows where heat is stored. A shaft with `tilt` lies as its beam says, or tilts freely.
@@ -48,12 +50,23 @@ def follow(
             found = options.geometry.orbit(**given, film=film, start=start, control=_IN_MOTION)
         return found.isel(time=slice(past.steps, None))
 
+    if not past.steps:
+        return path(AT_REST)
     try:
         return path(past)
-    except SolverError:
-        if not past.steps:
+    except SolverError as error:
+        # a film that stops later has forgotten how it began
+        forgotten = series["time"][min(past.steps, series["time"].size - 1)]
+        if isinstance(error, OrbitStopped) and error.time > forgotten:
             raise
-        return path(AT_REST)
+        found = path(AT_REST)
+        warnings.warn(
+            f"no film is found through the loads foretold before t = {series['time'][0]:g} s "
+            f"({error}): it begins at rest",
+            ValidityWarning,
+            stacklevel=2,
+        )
+        return found
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:

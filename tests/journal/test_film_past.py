@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.errors import SolverError
+from loadflow.errors import SolverError, ValidityWarning
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.numerics.prediction import foretell_past
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
@@ -146,8 +147,26 @@ def test_where_no_film_carries_a_past_the_path_begins_at_rest(monkeypatch):
         return found
 
     monkeypatch.setattr(film_of_bearing.Past, "before", overloaded)
-    path = follow(SCENE.journal, loads, shaft, past=past_of(SCENE, loads))
+    with pytest.warns(ValidityWarning, match="foretold before t = 0 s .* begins at rest"):
+        path = follow(SCENE.journal, loads, shaft, past=past_of(SCENE, loads))
     rest = follow(SCENE.journal, loads, shaft)
     np.testing.assert_array_equal(path["minimum_film"], rest["minimum_film"])
     with pytest.raises(SolverError):
         follow(SCENE.journal, loads, shaft * 1e4)
+
+
+def test_a_path_that_stops_later_is_not_followed_twice(monkeypatch):
+    loads, shaft = swinging(2, 80.0)
+    shaft["force"][1300:] *= 1e4  # after what the past is foretold from
+    begun, before = [], Past.before
+
+    def counted(self, series):
+        begun.append(self.steps)
+        return before(self, series)
+
+    monkeypatch.setattr(film_of_bearing.Past, "before", counted)
+    past = past_of(SCENE, loads)
+    with pytest.raises(OrbitStopped) as stop:
+        follow(SCENE.journal, loads, shaft, past=past)
+    assert begun == [past.steps]
+    assert stop.value.time == pytest.approx(1300 * STEP, abs=STEP)

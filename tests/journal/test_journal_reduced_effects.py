@@ -385,7 +385,7 @@ def test_moments_of_little_load_on_a_path_ask_for_no_more_points(monkeypatch):
     line = {"tilt": np.tile(0.4 * UNIT, (241, 2))}
     few = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0]
-    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[1:])
+    monkeypatch.setattr(composed_model, "LEVELS", composed_model.LEVELS[1:])
     fine = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0, 1]
     assert float(few.minimum_film.min()) == pytest.approx(float(fine.minimum_film.min()), rel=5e-4)
@@ -407,7 +407,7 @@ def test_more_points_across_go_on_from_the_film_so_far(monkeypatch):
     """Of a path that asks for them in its middle alone; gas and oil stay where they are."""
     time, load, tilt = gust(601)
     samples = {}
-    goes_on = composed_path.March.goes_on
+    goes_on, levels = composed_path.March.goes_on, composed_model.LEVELS
 
     def counted(march, state, level, begin, end):
         samples.setdefault(level, set()).update(range(begin, end))
@@ -418,9 +418,9 @@ def test_more_points_across_go_on_from_the_film_so_far(monkeypatch):
     assert samples[0] == set(range(1, 601))
     assert 0 < len(samples[1]) < 150
     assert all(9.0 < time[n] < 15.0 for n in samples[1])
-    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[1:])
+    monkeypatch.setattr(composed_model, "LEVELS", levels[1:])
     fine = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
-    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[:1])
+    monkeypatch.setattr(composed_model, "LEVELS", levels[:1])
     with pytest.warns(ValidityWarning, match="not resolved at .* first at t = 11"):
         coarse = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
     for name in ANSWERS:

@@ -25,11 +25,9 @@ from loadflow.journal.models.composed_path import (
     Drive,
     March,
     State,
-    found_in,
     march_of,
 )
 from loadflow.journal.models.model import Steps
-from loadflow.journal.models.ring import no_start, stopped
 from loadflow.journal.solvers.periodic import DEPTH, not_closed
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits, is_small, rounding_level
@@ -79,13 +77,9 @@ def orbit(
         if closes and march.resolved(level, _FIRST, count + 1):
             break
     if period.state is None:
-        ratio = float(np.hypot(march.rows[0, at.X], march.rows[0, at.Y]))
-        raise no_start(force[0], speed[0], ratio, found_in(march.rows[0]))
+        raise march.not_begun()
     if not period.whole:
-        missed = _FIRST + int(np.argmin(march.rows[_FIRST:, at.CONVERGED]))
-        ratio = float(np.hypot(march.rows[missed, at.X], march.rows[missed, at.Y]))
-        known = times[missed], force[missed - 1], speed[missed - 1]
-        raise stopped(*known, ratio, found_in(march.rows[missed]))
+        raise march.stops(_FIRST, count + 1)
     around = np.append(count, np.arange(_FIRST, count + 1))
     left = march.model.unresolved_on_path(march.rows[around], force)
     if left.any():

@@ -23,10 +23,10 @@ from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._pad_kernels import LAST
 from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_model import (
-    LEVELS,
     ComposedFilm,
     build,
     contact_share,
+    levels_of,
     warn_unresolved,
 )
 from loadflow.journal.models.composed_pads import (
@@ -38,9 +38,10 @@ from loadflow.journal.models.composed_pads import (
     pads_of,
 )
 from loadflow.journal.models.model import Steps
-from loadflow.journal.models.ring import no_start, stopped
+from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
 from loadflow.journal.models.width_modes import between_points
+from loadflow.journal.solvers.transient import OrbitStopped, stopped
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -101,8 +102,8 @@ class March:
 
     def __init__(self, drive: Drive, steps: Steps) -> None:
         self.drive, self.start = drive, steps.start
-        self.levels = LEVELS if drive.options.supply is None else LEVELS[:1]
-        self.model = model = drive.film(LEVELS[0])
+        self.levels = levels_of(drive.options)
+        self.model = model = drive.film(self.levels[0])
         contact = drive.options.contact
         rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
         share = 0.5 if model.whole else 1.0
@@ -179,6 +180,21 @@ class March:
         """Narrowest gap that a state leaves in a rigid shell, clearances."""
         model = self.drive.film(state.level)
         return float(model.least(state.place[None], state.past[None, 2:4])[0])
+
+    def not_begun(self) -> OrbitStopped:
+        """Say that there is no film at the first time."""
+        drive, row = self.drive, self.rows[0]
+        ratio = float(np.hypot(row[at.X], row[at.Y]))
+        return no_start(drive.force[0], drive.speed[0], ratio, _found_in(row))
+
+    def stops(self, begin: int, end: int) -> OrbitStopped:
+        """Say at which of the samples `begin` … `end` a path ends: the first without a film."""
+        drive, last = self.drive, begin + int(np.argmin(self.rows[begin:end, at.CONVERGED]))
+        row = self.rows[last]
+        ratio = float(np.hypot(row[at.X], row[at.Y]))
+        return stopped(
+            drive.time[last], drive.force[last], drive.speed[last], ratio, _found_in(row)
+        )
 
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""
@@ -293,23 +309,20 @@ def orbit(
         if state is not None and march.resolved(level, 0, 1):
             break
     if state is None:
-        ratio = float(np.hypot(rows[0, at.X], rows[0, at.Y]))
-        raise no_start(force[0], speed[0], ratio, found_in(rows[0]))
+        raise march.not_begun()
     done, looked_at = 1, 0
     while done < time.size:
         end, after = min(done + _LONG, time.size), None
-        if state.level == LEVELS[0] and done >= looked_at:
-            after, looked_at = march.goes_on(state, LEVELS[0], done, end), end
-        if after is None or not march.resolved(LEVELS[0], done, end):
+        if state.level == march.levels[0] and done >= looked_at:
+            after, looked_at = march.goes_on(state, march.levels[0], done, end), end
+        if after is None or not march.resolved(march.levels[0], done, end):
             end = min(done + _STRETCH, end)
             for level in march.levels:
                 after = march.goes_on(state, level, done, end)
                 if after is not None and march.resolved(level, done, end):
                     break
         if after is None:
-            last = done + int(np.argmin(rows[done:end, at.CONVERGED]))
-            ratio = float(np.hypot(rows[last, at.X], rows[last, at.Y]))
-            raise stopped(time[last], force[last], speed[last], ratio, found_in(rows[last]))
+            raise march.stops(done, end)
         done, state = end, after
     left = model.unresolved_on_path(rows, force)
     if left.any():
@@ -320,7 +333,7 @@ def orbit(
     return cooled(march.warmth, march.states, values)
 
 
-def found_in(row: Array) -> tuple[float, float, float]:
+def _found_in(row: Array) -> tuple[float, float, float]:
     """Residual, its rounding level, and Newton steps of a row."""
     residual, rounding, iterations = row[[at.RESIDUAL, at.ROUNDING, at.ITERATIONS]].tolist()
     return residual, rounding, iterations

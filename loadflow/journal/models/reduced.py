@@ -35,7 +35,6 @@ from loadflow.journal.models.ring import (
     lobed,
     no_start,
     ring_of,
-    stopped,
     units_of,
 )
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
@@ -43,7 +42,7 @@ from loadflow.journal.models.width_modes import lobatto
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
 from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
-from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset
+from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:

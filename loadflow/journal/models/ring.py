@@ -18,7 +18,6 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.solvers.estimate import closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
 from loadflow.journal.solvers.transient import OrbitStopped
-from loadflow.numerics.convergence import unresolved
 
 Array = NDArray[np.float64]
 
@@ -101,6 +100,7 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
     angle, count = film.mesh.angle, film.mesh.angle.size
     if film.pockets.count:  # cells end where grooves do
         width = film.mesh.dx
+        # of a cell the load along its middle is that of a pressure held over its width: 2 sin(w/2)
         face, middle = film.mesh.edges[1:], width * np.sinc(0.5 * width / np.pi)
     else:
         width = middle = np.full(count, 2.0 * np.pi / count)
@@ -171,13 +171,3 @@ def no_start(
     """
     why = not_found(*found, ratio)
     return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, why)}")
-
-
-def stopped(
-    time: float, force: Array, speed: float, ratio: float, found: tuple[float, float, float]
-) -> OrbitStopped:
-    """Say at which load an orbit stops; parameters as those of `no_start`."""
-    return OrbitStopped(
-        f"orbit stops at t = {time:.6g} s: F = ({force[0]:.6g}, {force[1]:.6g}) N, "
-        f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}"
-    )

@@ -33,7 +33,37 @@ _FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may 
 
 
 class OrbitStopped(SolverError):
-    """A step of an orbit, or its first film, that is not found however short the step is."""
+    """A step of an orbit, or its first film, that is not found however short the step is.
+
+    Attributes
+    ----------
+    time : float
+        Where it stops, s; NaN for the first film.
+    """
+
+    def __init__(self, message: str, time: float = math.nan) -> None:
+        super().__init__(message)
+        self.time = time
+
+
+def stopped(
+    time: float, force: Array, speed: float, ratio: float, found: tuple[float, float, float]
+) -> OrbitStopped:
+    """Say at which load an orbit stops.
+
+    Parameters
+    ----------
+    time, force, speed, ratio
+        Of the step, s, its load (2,), N, speed, rad/s, and eccentricity ratio at which Newton
+        ended.
+    found : tuple of float
+        Residual, its rounding level, and Newton steps.
+    """
+    return OrbitStopped(
+        f"orbit stops at t = {time:.6g} s: F = ({force[0]:.6g}, {force[1]:.6g}) N, "
+        f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}",
+        float(time),
+    )
 
 
 @dataclass(frozen=True)
@@ -228,11 +258,8 @@ def march(
         both = None if lines is None else (lines[i - 1], lines[i])
         solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before, both)
         if not solution.converged:
-            raise OrbitStopped(
-                f"orbit stops at t = {now:.6g} s: F = ({force[i, 0]:.6g}, {force[i, 1]:.6g}) N, "
-                f"ω = {speed[i]:.6g} rad/s, ε = {math.hypot(*solution.position[:2]):.6g}; "
-                + unresolved(solution.residual, solution.rounding, solution.iterations)
-            )
+            found = solution.residual, solution.rounding, solution.iterations
+            raise stopped(now, force[i], speed[i], math.hypot(*solution.position[:2]), found)
         rows.append(orbit_row(marcher.film, solution, steps))
         extremes.see(rows[-1], solution)
     return rows, past, extremes
