@@ -138,10 +138,9 @@ def judge_design(
     try:
         if candidate.journal is not None:
             for place in candidate.journal.bearings:
-                samples = spectrum[place].to_dataset()
-                bends = shaft is not None and place in shaft.concept.bearings
-                if shaft is not None and bends:
-                    samples = shaft.lying(candidate, place, samples)
+                samples, bends = spectrum[place].to_dataset(), False
+                if shaft is not None and place in shaft.concept.bearings:
+                    samples, bends = shaft.lying(candidate, place, samples), True
                 _add_film(sums, candidate.journal.at(place), place, samples, bends)
         if candidate.rolling is not None:
             _add_rolling(sums, candidate.rolling.bearings, friction, spectrum)

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.fitting_shaft import BORE, narrowest
@@ -14,6 +17,11 @@ from loadflow.scene.scene import Candidate, Scene
 from loadflow.scene.shaft import Shaft
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.shaft.options import Concept
+
+Array = NDArray[np.float64]
+
+_LIE = ("tilt", "curvature")
+_LOAD = 1e6  # N, N m: what bends a shaft about as much as its weight does
 
 _BORE_OF_ROLLING = 0.8
 """Diameter of the shaft in a rolling bearing over its pitch diameter, about that of large ones."""
@@ -56,7 +64,8 @@ def through(concept: Concept, widths: Mapping[str, float], follows: bool = False
         for start, end, section in stretches
         if place in widths and start < position <= end
     ]
-    scale = min(shares, default=1.0) if follows else min(1.0, *shares, 1.0)
+    tightest = min(shares, default=1.0)
+    scale = tightest if follows else min(tightest, 1.0)
     if scale == 1:
         return concept
     sections = tuple(
@@ -132,7 +141,8 @@ class BentShaft:
         before, after = (_bent(one, self.gravity, place, samples) for one in (self.concept, fits))
         # what supports and housings do stands in the samples; the beam alone is another one
         changed = {
-            name: samples[name] + (after[name] - before[name]) for name in ("tilt", "curvature")
+            name: samples[name] + xr.DataArray(after[name] - before[name], dims=("axis", "sample"))
+            for name in _LIE
         }
         return samples.assign(changed)
 
@@ -145,16 +155,31 @@ def fitting_shaft(scene: Scene, candidate: Candidate) -> Shaft:
     return scene.shaft.model_copy(update={bent.name: bent.fitting(candidate)})
 
 
-def _bent(concept: Concept, gravity: float, place: str, samples: xr.Dataset) -> xr.Dataset:
-    """Tilt and curvature of the shaft in a bearing under the hub loads of samples."""
+def _bent(concept: Concept, gravity: float, place: str, samples: xr.Dataset) -> dict[str, Array]:
+    """Tilt, rad, and curvature, 1/m, of the shaft in a bearing under the hub loads of samples."""
     assert concept.beam is not None
     rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
-    force, moment = (
-        samples[name].transpose("axis", "sample").values for name in ("hub_force", "hub_moment")
+    loads = np.concatenate(
+        [samples[name].transpose("axis", "sample").values for name in ("hub_force", "hub_moment")]
     )
-    found = bearing_loads(rigid, force, moment, tilt=gravity).sel(bearing=place)
-    return (
-        found[["tilt", "curvature"]]
-        .drop_vars(["bearing", "time"], errors="ignore")
-        .rename(time="sample")
-    )
+    return {
+        name: still[:, None] + by_load @ loads
+        for name, (still, by_load) in _response(rigid, gravity)[place].items()
+    }
+
+
+@lru_cache(maxsize=64)  # the shaft of a scene is asked for each design
+def _response(concept: Concept, gravity: float) -> dict[str, dict[str, tuple[Array, Array]]]:
+    """Tilt and curvature in each bearing, which are linear in the hub's forces and moments.
+
+    By place and name: those under the weight alone (3,), and by each load (3, 6), per N and N m.
+    """
+    loads = _LOAD * np.eye(6, 7, k=1)
+    found = bearing_loads(concept, loads[:3], loads[3:], tilt=gravity)
+    response: dict[str, dict[str, tuple[Array, Array]]] = {}
+    for place in concept.bearings:
+        response[place] = {}
+        for name in _LIE:
+            values = found[name].sel(bearing=place).transpose("axis", "time").values.astype(float)
+            response[place][name] = values[:, 0], (values[:, 1:] - values[:, :1]) / _LOAD
+    return response
