@@ -28,6 +28,11 @@ def foretell_past(rows: Array, order: int, count: int) -> Array:
     -------
     ndarray, shape (count, k)
 
+    References
+    ----------
+    [Burg 1975], with the reflection coefficient k = 2 Σ f b / Σ (f² + b²) of the errors ahead and
+    behind, summed over the columns, too.
+
     Examples
     --------
     >>> import numpy as np

@@ -13,19 +13,14 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.rolling.friction import torques_beside
 from loadflow.scene.scene import Scene
-from loadflow.stages.friction import least_film_parameter
+from loadflow.stages.friction import CATALOGUES, least_film_parameter
 from loadflow.stages.rolling_at_work import friction_options
 from loadflow.studies.compare_margins import looked_at, solved
 
 _SLOW = 0.1  # share of the samples that counts as low speed
 _Means = dict[tuple[str, str], float]  # by load case and bearing
 
-TORQUES = {
-    "": "friction_torque",
-    "palmgren": "palmgren_torque",
-    "constant coefficient": "constant_coefficient_torque",
-    "skf": "skf_torque",
-}
+TORQUES = {"": "friction_torque"} | {key: name for key, (name, _) in CATALOGUES.items()}
 """Quantity of a comparison by catalogue; the first is our own."""
 
 

@@ -72,7 +72,7 @@ class RollerBearing(FacingRows, RollerRaceways, BearingOfRollers):
     @property
     def catalogue_kind(self) -> CatalogueKind:
         """Tapered where the rollers have a contact angle."""
-        return "tapered" if self.contact_angle > 0 else "cylindrical"
+        return "tapered" if self.rib_guided else "cylindrical"
 
     @property
     def axial_clearance(self) -> float:

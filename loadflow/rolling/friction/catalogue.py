@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 import numpy as np
 from annotated_types import Ge, Gt
@@ -219,7 +219,7 @@ class SkfConstants:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        check_choice(self, "kind", ("cylindrical", "tapered", "spherical"))
+        check_choice(self, "kind", get_args(CatalogueKind))
 
     def idle(self) -> Iterator[tuple[str, str]]:
         """Constants that the formulas of the type do not have, and why."""
