@@ -53,7 +53,7 @@ OFF = (0.0008, 0.0019, 0.0018, 0.0006, 0.0013)
 
 OFF_IF = {
     "moment": {"minimum_film": 0.004},  # free to tilt, the film at the ends follows the moment
-    "shell, tilt": {"side_flow": 0.0042},  # of which the reduced film's own 6 points make 0.0037
+    "shell, tilt": {"side_flow": 0.004},  # of which the reduced film's own 6 points make 0.0037
 }
 CELLS = (60, 40)
 
@@ -86,7 +86,7 @@ def test_the_half_width_is_that_of_the_aligned_film():
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_orbits_agree_with_the_grid(effect):
     film, line = EFFECTS[effect]
-    some = slice(None, None, 3)  # both take the same steps
+    some = slice(None, None, 2)  # both take the same steps
     line = {name: values[some] for name, values in line.items()}
     grid, few = (
         BEARING.orbit(TIME[some], LOAD[some], SPEED, replace(one, grid=CELLS, **film), **line)
