@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take, with_lane
+from loadflow.numerics.lanes import LANES, aligned, larger, magnitude, put, spread, take, with_lane
 
 
 @njit
@@ -36,3 +36,10 @@ def test_what_is_no_number_is_not_the_larger_one():
     made = np.zeros(LANES)
     _larger_of(np.full(LANES, np.nan), made)
     np.testing.assert_array_equal(made, 1.0)
+
+
+def test_rows_lie_each_in_one_line_of_the_cache():
+    values = np.random.default_rng(1).normal(size=(3, 5, LANES))
+    kept = [aligned(values) for _ in range(9)]  # numpy places each at another multiple of 16 bytes
+    assert all(one.ctypes.data % 64 == 0 for one in kept)
+    assert all(one.flags.c_contiguous and (one == values).all() for one in kept)

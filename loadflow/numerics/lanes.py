@@ -11,14 +11,17 @@ from __future__ import annotations
 import operator
 from typing import Any, ClassVar
 
+import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.core.typing.templates import ConcreteTemplate, infer_global, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
+from numpy.typing import NDArray
 
 LANES = 8
 """Numbers side by side."""
 
+_LINE = 64  # bytes of a line of the processor's cache, those of a row of lanes
 _REAL = ir.DoubleType()
 _ROW = ir.VectorType(_REAL, LANES)
 
@@ -51,6 +54,26 @@ def lanes_for(count: int) -> int:
     (8, 16)
     """
     return LANES * -(-count // LANES)
+
+
+def aligned(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Copy of `values` (…, L) of which each row of lanes lies in one line of the processor's cache.
+
+    numpy begins arrays at any multiple of 16 bytes: most of them have every row across two lines,
+    which a loop over films takes a tenth longer to read.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.numerics.lanes import aligned
+    >>> aligned(np.ones((60, 8))).ctypes.data % 64
+    0
+    """
+    room = np.empty(values.size + LANES)
+    begin = -room.ctypes.data % _LINE // room.itemsize
+    copy = room[begin : begin + values.size].reshape(values.shape)
+    copy[...] = values
+    return copy
 
 
 def _spread(builder: Any, value: Any) -> Any:

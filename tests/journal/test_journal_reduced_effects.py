@@ -325,6 +325,7 @@ RUBBING = Film(
     ),
 )  # fmt: skip
 PRESSED = np.array([4e4, 5e3])
+TILTED = {"tilt": (0.0, 2e-5)}
 
 
 @pytest.mark.parametrize(
@@ -438,13 +439,34 @@ def test_a_path_in_stretches_is_the_path_in_one(effect, monkeypatch):
     heat = Heat(**OIL, capacity=3e3, start_temperature=313.15)
     film = replace(REDUCED, lubricant=None, heat=heat, **film)
     whole = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
-    monkeypatch.setattr(composed_path, "_LONG", 4)
+    monkeypatch.setattr(composed_path, "_STRETCH", 4)
+    monkeypatch.setattr(composed_path, "_LONG", 7)
     parts = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
     for name in (*ANSWERS, "temperature"):
-        assert apart(parts, whole, name) < 1e-9, name
+        np.testing.assert_array_equal(parts[name], whole[name], name)
 
 
-TILTED = {"tilt": (0.0, 2e-5)}
+def test_a_path_that_rubs_stays_with_more_points_as_long_as_it_asks_for_them(monkeypatch):
+    """To try few points first in each stretch took as long as the path itself."""
+    samples = [0, 0]
+    goes_on, levels = composed_path.March.goes_on, composed_model.LEVELS
+
+    def counted(march, state, level, begin, end):
+        samples[level] += end - begin
+        return goes_on(march, state, level, begin, end)
+
+    monkeypatch.setattr(composed_path.March, "goes_on", counted)
+    rough = Contact(AsperityContact(roughness=1e-5, contact_modulus=115e9, factor=1e-3))
+    film = replace(REDUCED, contact=rough, shell=LocalShell(3e-12))
+    time = np.linspace(0.0, 6.0, 241)
+    load = np.stack([6e6 + 1.5e6 * np.sin(1.5 * time), 1.2e6 * np.cos(4.0 * time)], axis=-1)
+    rubs = BEARING.orbit(time, load, 0.1 * SPEED, film)
+    assert samples[0] < 0.3 * time.size
+    assert 0.9 * time.size < samples[1] < 1.1 * time.size
+    monkeypatch.setattr(composed_model, "LEVELS", levels[1:])
+    fine = BEARING.orbit(time, load, 0.1 * SPEED, film)
+    for name in ANSWERS:
+        assert apart(rubs, fine, name) < 1e-2, name
 
 
 def test_a_tilted_end_on_a_yielding_shell_is_within_the_error_of_the_cells():

@@ -367,6 +367,12 @@ def summarise(film, work, q, wedge, row):
         for j in range(m):
             value += nodes.highest[n, j] * (p[highest, j] - ring.p_edge)
         left = max(left, abs(value))
+    beyond = 0.0
+    for n in range(nodes.beyond.shape[0]):
+        value = 0.0
+        for j in range(m):
+            value += nodes.beyond[n, j] * (p[highest, j] - ring.p_edge)
+        beyond += abs(value)
     for k in range(4):
         row[k] = q[k]
     row[film_.PEAK] = peak
@@ -384,7 +390,8 @@ def summarise(film, work, q, wedge, row):
     mean_pressure = np.hypot(work.load[0] + work.touch[0, 0], work.load[1] + work.touch[0, 1])
     mean_pressure /= 2.0 * ring.area * nodes.width
     # beside asperities a film may carry next to nothing
-    row[film_.HIGHEST] = left / max(peak - ring.p_edge, mean_pressure, 1e-3 * ring.scale)
+    pressed = max(peak - ring.p_edge, mean_pressure, 1e-3 * ring.scale)
+    row[film_.HIGHEST], row[film_.BEYOND] = left / pressed, beyond / pressed
     row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
     for j in range(work.fed.size):
         row[film_.RESULTS + j] = work.fed[j]

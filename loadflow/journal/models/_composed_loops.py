@@ -364,10 +364,11 @@ def solve(
     before, new, given = work.places[0], work.places[1], work.places[2]
     resting = begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
-    work.kept[0] = 0.0
     if warmth.on:
         light = lighter(warmth, states, 0)
-    if not resting:
+    if resting:
+        work.kept[0] = 0.0
+    else:
         _set_out(film, work, q, begin)
         step_before = work.past[4]
     for n in range(begin, 1 if resting else time.size):

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.models._compile import inner
-from loadflow.numerics.lanes import LANES, put, spread, take, with_lane
+from loadflow.numerics.lanes import LANES, aligned, put, spread, take, with_lane
 
 Array = NDArray[np.float64]
 
@@ -47,10 +47,8 @@ class RingSystem(NamedTuple):
 def ring_system(around: int, across: int, lanes: int) -> RingSystem:
     """Allocate a system."""
     blocks, rows = (around, across, lanes), (around, lanes)
-    return RingSystem(
-        np.zeros(blocks), np.zeros(rows), np.zeros(rows), np.zeros(blocks), np.zeros(blocks),
-        np.zeros((2, across, lanes)), np.zeros(lanes),
-    )  # fmt: skip
+    shapes = blocks, rows, rows, blocks, blocks, (2, across, lanes), (lanes,)
+    return RingSystem._make(aligned(np.zeros(shape)) for shape in shapes)
 
 
 @inner

@@ -18,16 +18,17 @@ from loadflow.journal.models._ring_kernels import RingSystem, ring_system
 from loadflow.journal.models.composed_supply import Held
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
-from loadflow.numerics.lanes import lanes_for
+from loadflow.numerics.lanes import aligned, lanes_for
 
 Array = NDArray[np.float64]
 
 # columns of a row of results
 (
     X, Y, TILT_X, TILT_Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, LEAST, GROWTH, MOMENT_X,
-    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, FED, RESIDUAL, ITERATIONS, CONVERGED, ROUNDING,
-) = range(22)  # fmt: skip
-RESULTS = 22
+    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, BEYOND, FED, RESIDUAL, ITERATIONS, CONVERGED,
+    ROUNDING,
+) = range(23)  # fmt: skip
+RESULTS = 23
 
 
 class Places(NamedTuple):
@@ -83,7 +84,7 @@ def lanes_of(nodes: Nodes, depth: Array) -> Lanes:
     points, inner = nodes.slopes.shape
 
     def rows(values: Array, count: int = points) -> Array:
-        given = np.zeros((*values.shape[:-1], lanes_for(count)))
+        given = aligned(np.zeros((*values.shape[:-1], lanes_for(count))))
         given[..., : values.shape[-1]] = values
         return given
 
@@ -325,19 +326,19 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
     points, inner = nodes.slopes.shape
     shape = around, lanes_for(points)
     return ComposedWork(
-        u=np.zeros(shape),
-        before=np.zeros(shape),
-        last=np.zeros(shape),
-        trial=np.zeros(shape),
-        liquid=np.zeros((3, *shape)),
-        state=np.zeros((8, *shape)),
-        gap=np.ones((4, *shape)),
-        gap_slope=np.zeros(shape),
-        face=np.ones((5, *shape)),
-        slope=np.zeros(shape),
+        u=aligned(np.zeros(shape)),
+        before=aligned(np.zeros(shape)),
+        last=aligned(np.zeros(shape)),
+        trial=aligned(np.zeros(shape)),
+        liquid=aligned(np.zeros((3, *shape))),
+        state=aligned(np.zeros((8, *shape))),
+        gap=aligned(np.ones((4, *shape))),
+        gap_slope=aligned(np.zeros(shape)),
+        face=aligned(np.ones((5, *shape))),
+        slope=aligned(np.zeros(shape)),
         matrix=ring_system(around, inner, shape[1]),
-        columns=np.zeros((5, *shape)),
-        row=np.zeros((5, shape[1])),
+        columns=aligned(np.zeros((5, *shape))),
+        row=aligned(np.zeros((5, shape[1]))),
         centre=np.zeros((2, places)),
         bend=np.zeros(2),
         load=np.zeros(4),

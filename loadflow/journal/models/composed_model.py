@@ -195,18 +195,19 @@ class ComposedFilm:
         return rows[:, at.HIGHEST] > _UNRESOLVED
 
     def unresolved_on_path(
-        self, rows: Array, force: Array, typical: float | None = None
+        self, rows: Array, force: Array, typical: float | None = None, by: int = at.HIGHEST
     ) -> NDArray[np.bool_]:
         """The same of the samples of a path under `force` (n, 2), N.
 
         What hardly loads the film, between samples that do, needs no more points: the share that
         is missed there counts against the mean pressure of the path. Where `rows` are but a part
-        of that, `typical` is no more than it, Pa.
+        of that, `typical` is no more than it, Pa. With `by` at `BEYOND` it is what the first
+        level would miss of what a further one has found.
         """
         specific = np.hypot(*force.T) / (self.bearing.width * self.bearing.diameter)
         pressure = np.maximum(rows[:, at.PEAK] - self.film.ring.p_edge, specific)
         share = pressure / np.maximum(pressure, pressure.mean() if typical is None else typical)
-        return np.asarray(rows[:, at.HIGHEST] * share > _UNRESOLVED)
+        return np.asarray(rows[:, by] * share > _UNRESOLVED)
 
     def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
@@ -269,7 +270,8 @@ def build(
     whole = not line.straight
     layout, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
     more = 0 if _resolves_relief(bearing, layout(half, points[0]).z) else 1
-    nodes = nodes_beside(options.supply, bearing, whole) or layout(half, points[level + more])
+    nodes = nodes_beside(options.supply, bearing, whole)
+    nodes = nodes or layout(half, points[level + more], points[more])
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options.cells[0])

@@ -2,7 +2,8 @@
 
 Most of a path is resolved by few points. A stretch that asks for more is gone through again with
 these, from the film that has come so far: its unknowns are taken between the points, so that gas
-and oil stay where they are in the gap.
+and oil stay where they are in the gap. The path goes on with them until few points would resolve
+what they find.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ Array = NDArray[np.float64]
 STEP_BEFORE = 4  # of the `past` of a state: the step to its last time, s; 0 at the first one
 _NO_SLOPES = np.zeros((2, 0, 0))
 _STRETCH = 24  # samples that take more points together
-_LONG = 240  # samples that are tried with few; calls of fewer cost
+_LONG = 240  # samples that go on together with few; calls of fewer cost
 
 
 class State(NamedTuple):
@@ -114,6 +115,7 @@ class March:
         self.rows = np.zeros((drive.time.size, model.columns))
         self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
         self.typical = float(drive.specific_load.mean())
+        self.reached: State | None = None
 
     def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
         """Solve for the samples `begin` … `end`, and whether all have been; moves `place`."""
@@ -131,6 +133,11 @@ class March:
         rows, force = self.rows[some], self.drive.force[some]
         missed = self.model.unresolved_on_path(rows, force, self.typical)
         return level == self.levels[-1] or not missed.any()
+
+    def asks_for_more(self, begin: int, end: int) -> bool:
+        """Whether the first level would miss what a further one has found in these samples."""
+        rows, force = self.rows[begin:end], self.drive.force[begin:end]
+        return bool(self.model.unresolved_on_path(rows, force, self.typical, at.BEYOND).any())
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, and where the shaft is; None where it is not found."""
@@ -155,6 +162,8 @@ class March:
         """The film after the samples `begin` … `end`; None where it is not found."""
         model = self.drive.film(level)
         work, place = model.work, state.place.copy()
+        if state is not self.reached or level != state.level:  # the factors are of another film
+            work.kept[0] = 0.0
         work.last[:] = self._moved(state.last, state.level, level)
         work.before[:] = self._moved(state.before, state.level, level)
         work.u[:] = work.last
@@ -163,7 +172,8 @@ class March:
         if not self.solve(level, place, model.size, begin, end, most):
             return None
         last, before, earlier = work.last.copy(), work.before.copy(), work.places[0].copy()
-        return State(level, last, before, place, earlier, work.past.copy())
+        self.reached = State(level, last, before, place, earlier, work.past.copy())
+        return self.reached
 
     def _moved(self, unknowns: Array, level: int, other: int) -> Array:
         """Unknowns (nx, L) at the points of another level."""
@@ -310,19 +320,20 @@ def orbit(
             break
     if state is None:
         raise march.not_begun()
-    done, looked_at = 1, 0
+    done, level, samples = 1, state.level, _STRETCH
     while done < time.size:
-        end, after = min(done + _LONG, time.size), None
-        if state.level == march.levels[0] and done >= looked_at:
-            after, looked_at = march.goes_on(state, march.levels[0], done, end), end
-        if after is None or not march.resolved(march.levels[0], done, end):
-            end = min(done + _STRETCH, end)
-            for level in march.levels:
-                after = march.goes_on(state, level, done, end)
-                if after is not None and march.resolved(level, done, end):
-                    break
+        end = min(done + samples, time.size)
+        after = march.goes_on(state, level, done, end)
+        resolved = after is not None and march.resolved(level, done, end)
+        if not resolved and level != march.levels[-1]:  # a stretch alone asks for more points
+            level, samples = level + (samples == _STRETCH), _STRETCH
+            continue
         if after is None:
             raise march.stops(done, end)
+        if level == march.levels[0]:
+            samples = min(2 * samples, _LONG)
+        elif not march.asks_for_more(done, end):
+            level = march.levels[0]
         done, state = end, after
     left = model.unresolved_on_path(rows, force)
     if left.any():

@@ -99,6 +99,8 @@ class Nodes(NamedTuple):
         Values at places close by each other, from those at the points.
     highest : array (g, m)
         Share of the highest polynomials L_{n+1} − L_{n−1} of Legendre's, an even and an odd one.
+    beyond : array (b, m)
+        The same of all from those on that are the highest of fewer points.
     below : array (m,)
         Share of the width of an inner point that lies on its side of smaller z.
     width, widest : float
@@ -111,6 +113,7 @@ class Nodes(NamedTuple):
     ends: Array
     fine: Array
     highest: Array
+    beyond: Array
     below: Array
     width: float
     widest: float
@@ -120,20 +123,25 @@ _FINE = 41  # places across the width at which the largest pressure is sought
 
 
 @lru_cache(maxsize=8)
-def whole_width(half_width: float, points: int) -> Nodes:
-    """Polynomials over the whole width, 0 at both ends, from their values at inner `points`."""
+def whole_width(half_width: float, points: int, few: int | None = None) -> Nodes:
+    """Polynomials over the whole width, 0 at both ends, from their values at inner `points`.
+
+    They are the more ones in place of a `few`, where there are such.
+    """
     zeta, weights = _lobatto_rule(points + 1)
     slopes = _derivative(zeta)
     inner, ends = np.arange(1, points + 1), np.array([0, points + 1])
     order = np.append(inner, ends)
     fine = _interpolation(zeta, np.linspace(-1.0, 1.0, _FINE))
+    shares = _shares(zeta[inner], np.arange(1, points + 1))
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
         slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)] / half_width),
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
-        highest=_shares(zeta[inner], np.arange(1, points + 1))[-2:],
+        highest=shares[-2:],
+        beyond=shares[(few or points) - 2 :],
         below=np.full(points, 0.5),
         width=half_width * float(weights.sum()),
         widest=half_width * float(weights.max()),
@@ -141,8 +149,8 @@ def whole_width(half_width: float, points: int) -> Nodes:
 
 
 @lru_cache(maxsize=8)
-def half_width_nodes(half_width: float, points: int) -> Nodes:
-    """Even polynomials over the half width, 0 at its end: those of `lobatto`."""
+def half_width_nodes(half_width: float, points: int, few: int | None = None) -> Nodes:
+    """Even polynomials over the half width, 0 at its end: those of `lobatto`; `few` as above."""
     zeta, weights = _lobatto_rule(2 * points + 1)
     slopes = _derivative(zeta)
     inner = np.arange(points + 1, 2 * points + 1)
@@ -150,13 +158,15 @@ def half_width_nodes(half_width: float, points: int) -> Nodes:
     order = np.append(inner, 2 * points + 1)
     fine = _interpolation(zeta, np.linspace(0.0, 1.0, _FINE))
     even = slopes[:, inner] + slopes[:, mirror]
+    shares = _shares(zeta[inner], 2 * np.arange(points) + 1)
     return Nodes(
         z=half_width * zeta[order],
         weights=half_width * weights[order],
         slopes=np.ascontiguousarray(even[order] / half_width),
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
-        highest=_shares(zeta[inner], 2 * np.arange(points) + 1)[-1:],
+        highest=shares[-1:],
+        beyond=shares[(few or points) - 1 :],
         below=np.full(points, 0.5),
         width=half_width * float(weights[order].sum()),
         widest=half_width * float(weights[order].max()),
@@ -237,6 +247,7 @@ def stretched_width(
         ends=np.array([-1.0, 1.0] if whole else [1.0]),
         fine=of_unknown(fine),
         highest=of_unknown(np.array(highest if whole else highest[len(marks) :])),
+        beyond=np.zeros((0, unknown.size)),  # these points are never the more ones
         below=below[unknown],
         width=half_width * float(real.sum()),
         widest=half_width * float(own[unknown].max()),
