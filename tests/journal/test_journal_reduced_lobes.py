@@ -17,6 +17,10 @@ from loadflow.journal import (
     Sommerfeld,
     Turbulence,
 )
+from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film_model import Film
+from loadflow.journal.models._reduced_kernels import least_around
+from loadflow.journal.models.ring import lobed, ring_of, units_of
 from loadflow.tribology import AsperityContact
 
 OIL = Lubricant(viscosity=0.1)
@@ -192,3 +196,15 @@ def test_an_orbit_with_effects_around_lobes_is_that_of_the_grid():
 def test_what_it_does_not_know_is_refused_by_name(shape, given, name):
     with pytest.raises(InputError, match=f"{name}.*is not allowed|{name} ="):
         at_rest(shape, GasMixture(5e4), rung="reduced", **given)
+
+
+@pytest.mark.parametrize("shape", SHAPES.values(), ids=SHAPES)
+def test_the_narrowest_gap_is_that_of_the_bore_between_the_cells_too(shape):
+    """A film whose gap closes between two places of its cells is no answer."""
+    own = bearing(shape)
+    film = Film(OIL, Guembel(1e5), 1e5, grid=(24, 8), rung="reduced")
+    units = units_of(own, film, np.array([SPEED]))
+    ring = lobed(ring_of(units, 2.0), own, 24)
+    places = np.random.default_rng(1).uniform(-0.9, 0.9, (50, 2))
+    found = [least_around.py_func(ring, x, y) for x, y in places.tolist()]
+    np.testing.assert_allclose(found, Bore.of(own).narrowest(places), atol=1e-12)

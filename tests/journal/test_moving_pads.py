@@ -16,6 +16,7 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.film_model import Film
+from loadflow.journal.models.composed_pads import narrowest_on_pads
 
 BEARING = JournalBearing(1.4, 1.3, 1e-3, shape=TiltingPads(5, 1.05, preload=0.2, angle=0.628))
 SPEED, PERIOD = 1.2, 3.0
@@ -178,3 +179,14 @@ def test_the_end_of_a_pad_stays_clear_of_the_shaft():
     least, on_grid = (float(one.minimum_film.min()) for one in (path, grid))
     assert least == pytest.approx(on_grid, rel=0.05)
     assert least > 0.01 * bearing.clearance
+
+
+def test_the_narrowest_gap_of_reduced_pads_is_that_between_their_places():
+    """A shaft nearer to a pad than its cells tell: places are half a cell apart."""
+    bearing = JournalBearing(1.4, 0.8, 8e-4, shape=TiltingPads(5, 1.05, preload=0.3, angle=0.628))
+    time = np.linspace(0.0, PERIOD, 41)
+    path = bearing.orbit(time, turning(time), SPEED, reduced(Guembel()))
+    centres = path.eccentricity.values[:, None] / bearing.clearance
+    tilts = path.pad_tilt.values / bearing.relative_clearance
+    least = bearing.clearance * narrowest_on_pads(bearing, centres, np.zeros(1), tilts)
+    np.testing.assert_allclose(path.minimum_film, least, rtol=1e-9)

@@ -13,6 +13,7 @@ from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
+from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
 from loadflow.numerics.lanes import LANES, put, take
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
@@ -150,16 +151,23 @@ def _rough_gap(film, work):
 
 
 @inner
+def has_gap(film, work):
+    """Whether every place keeps a gap, between rough surfaces one in which contact is known."""
+    return narrowest(film, work) + film.rough.deepest > NO_GAP
+
+
+@inner
 def narrowest(film, work):
     """Narrowest gap of the mean planes at points and faces, after `place`; clearances.
 
     Around a rigid shell it is that between the points, too.
     """
     least = 1e300
-    if film.give == 0.0 and not film.ring.shaped:
+    if film.give == 0.0:
         for k in range(film.places.z.size):
-            gap = 1.0 + film.places.depth[k] - np.hypot(work.centre[0, k], work.centre[1, k])
-            least = min(least, gap)
+            x, y = work.centre[0, k], work.centre[1, k]
+            gap = least_around(film.ring, x, y) if film.ring.shaped else 1.0 - np.hypot(x, y)
+            least = min(least, film.places.depth[k] + gap)
         return least
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     for i in range(nx):

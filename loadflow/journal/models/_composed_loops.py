@@ -14,6 +14,7 @@ from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     OPEN,
+    has_gap,
     narrowest,
     place,
     share_of_step,
@@ -216,7 +217,7 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         for a in range(size):
             missing += (load[a] - work.load[a] - work.touch[0, a]) ** 2
         residual = max(residual, np.sqrt(missing) / force_scale)
-        if film.give > 0.0 and not narrowest(film, work) + film.rough.deepest > 0.0:
+        if film.give > 0.0 and not has_gap(film, work):
             residual = np.inf
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0
@@ -224,6 +225,8 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
             cells, forces = magnitudes(film, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, forces / force_scale if size else 0.0))
         answered = is_small(residual, tolerance, min(rounding, COARSEST))
+        if answered and film.ring.shaped and not has_gap(film, work):
+            residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1

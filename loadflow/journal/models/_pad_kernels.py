@@ -24,6 +24,8 @@ def place_on_pads(film, work, pads, pad_work, q, which):
         j = pads.face[i]
         along = pads.along[j, 0] * ring.cos_face[i] + pads.along[j, 1] * ring.sin_face[i]
         ring.base_face[i] = pads.base_face[i] - tilts[which, j] * along
+        ring.lobe[1, i] = pads.lobe[0, i] + tilts[which, j] * pads.along[j, 0]
+        ring.lobe[2, i] = pads.lobe[1, i] + tilts[which, j] * pads.along[j, 1]
     place(film, work, q)
 
 

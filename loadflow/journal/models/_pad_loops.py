@@ -12,7 +12,7 @@ import numpy as np
 from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
-from loadflow.journal.models._composed_gap_kernels import turn
+from loadflow.journal.models._composed_gap_kernels import has_gap, turn
 from loadflow.journal.models._composed_kernels import (
     balance,
     fed,
@@ -256,6 +256,8 @@ def _newton(
             cells, forces = magnitudes(film, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, forces / force_scale))
         answered = is_small(residual, tolerance, min(rounding, COARSEST))
+        if answered and not has_gap(film, work):
+            residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return residual, spent, answered, rounding
         spent += 1

@@ -26,6 +26,8 @@ from loadflow.journal.models.reduced_film import (
     Y,
 )
 
+NO_GAP = 1e-13  # narrowest gap, in clearances, that is none
+
 
 @inner
 def place(film, work, x, y):
@@ -297,13 +299,24 @@ def fed(film, work, wedge):
 
 @inner
 def narrowest(film, x, y):
-    """Narrowest gap around a shaft at (x, y), in clearances; at cells and faces, if shaped."""
-    if not film.ring.shaped:
-        return 1.0 - np.hypot(x, y)
-    ring = film.ring
+    """Narrowest gap around a shaft at (x, y), in clearances, between the cells, too."""
+    return least_around(film.ring, x, y) if film.ring.shaped else 1.0 - np.hypot(x, y)
+
+
+@inner
+def least_around(ring, x, y):
+    """Narrowest gap of a shaped bore around a shaft at (x, y), between faces and at them."""
     least = np.inf
     for i in range(ring.cos.size):
-        if not ring.groove[i]:
-            least = min(least, ring.base[i] - x * ring.cos[i] - y * ring.sin[i])
-        least = min(least, ring.base_face[i] - x * ring.cos_face[i] - y * ring.sin_face[i])
+        if ring.back[i] == 0.0:
+            continue  # a groove; its faces are those of the cells beside it
+        left = i - 1 if i > 0 else ring.cos.size - 1
+        c, s, c_next, s_next = (
+            ring.cos_face[left], ring.sin_face[left], ring.cos_face[i], ring.sin_face[i],
+        )  # fmt: skip
+        ex, ey = ring.lobe[1, i] + x, ring.lobe[2, i] + y
+        reach = max(ex * c + ey * s, ex * c_next + ey * s_next)
+        if ex * s < ey * c and ex * s_next > ey * c_next:  # it narrows, then widens
+            reach = np.hypot(ex, ey)
+        least = min(least, ring.lobe[0, i] - reach)
     return least

@@ -12,6 +12,7 @@ from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.models._band_kernels import factorise, substitute
 from loadflow.journal.models._compile import inner, outer
 from loadflow.journal.models._reduced_kernels import (
+    NO_GAP,
     balance,
     carried,
     hold_grooves,
@@ -130,6 +131,8 @@ def newton(film, work, x, y, fx, fy, speed, rate, tolerance, max_iterations):
             cells, load = magnitudes(film, work, wedge, rate)
             rounding = rounding_level(max(cells / flux, load / force_scale if film.free else 0.0))
         answered = is_small(residual, tolerance, min(rounding, COARSEST))
+        if answered and film.ring.shaped and not narrowest(film, x, y) > NO_GAP:
+            residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return x, y, residual, spent, answered, rounding
         spent += 1

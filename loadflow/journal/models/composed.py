@@ -128,7 +128,7 @@ def _equilibria(
         "moment": np.zeros((count, 2)),
         "tilt": np.zeros((count, 2)),
         "pad_tilt": np.zeros((count, 0)),
-        **model.results(rows, speed, lines),
+        **model.results(rows, speed),
         "stiffness": stiffness * scale,
         "damping": damping * scale,
     }

@@ -209,10 +209,8 @@ class ComposedFilm:
         share = pressure / np.maximum(pressure, pressure.mean() if typical is None else typical)
         return np.asarray(rows[:, by] * share > _UNRESOLVED)
 
-    def results(self, rows: Array, speed: Array, lines: Array) -> dict[str, Any]:
+    def results(self, rows: Array, speed: Array) -> dict[str, Any]:
         """Rows of the compiled loops, in SI units and named as in `Equilibrium`."""
-        if self.film.ring.shaped and self.film.give == 0.0:  # between the cells, too
-            rows[:, at.LEAST] = self.least(rows[:, : at.TILT_Y + 1], lines[:, 2:])
         share = 0.5 if self.whole else 1.0  # the units are those of half of the width
         found = Integrals(
             peak=rows[:, at.PEAK],

@@ -38,6 +38,8 @@ class Pads(NamedTuple):
         Directions of the tangents at the pivots, and of the pivots.
     base, base_face : array (nx,)
         As those of `Ring` with flat pads.
+    lobe : array (2, nx)
+        The same of x and y of its `lobe`.
     groove : array of bool (nx,)
         The grooves between them.
     edge : float
@@ -57,6 +59,7 @@ class Pads(NamedTuple):
     toward: Array
     base: Array
     base_face: Array
+    lobe: Array
     groove: NDArray[np.bool_]
     edge: float
     widest: Array
@@ -111,6 +114,7 @@ def pads_of(ring: Ring, gap: ShapedGap, edge: float) -> Pads:
         toward=gap.pivots.copy(),
         base=ring.base.copy(),
         base_face=ring.base_face.copy(),
+        lobe=ring.lobe[1:].copy(),
         groove=ring.groove.copy(),
         edge=edge,
         widest=np.array([curve.widest for curve in curves]),

@@ -209,7 +209,7 @@ class March:
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""
         speed = self.drive.speed * self.states[:, THIN]
-        return self.model.results(self.rows, speed, self.lines)
+        return self.model.results(self.rows, speed)
 
 
 class _OnPads(March):
@@ -271,14 +271,8 @@ class _OnPads(March):
         return float(narrowest_on_pads(self.drive.bearing, centres, depth, own)[0])
 
     def results(self) -> dict[str, Any]:
-        bearing, some = self.drive.bearing, self.rows[:, : at.TILT_Y + 1]
-        centres = self.model.centres(some, self.lines[:, 2:])
-        depth = self.model.film.places.depth
-        least = narrowest_on_pads(bearing, centres, depth, self.tilts)
-        return super().results() | {
-            "minimum_film": least * bearing.clearance,
-            "pad_tilt": self.tilts * bearing.relative_clearance,
-        }
+        tilts = self.tilts * self.drive.bearing.relative_clearance
+        return super().results() | {"pad_tilt": tilts}
 
 
 def march_of(drive: Drive, steps: Steps) -> March:

@@ -41,6 +41,7 @@ class Ring(NamedTuple):
     back : array (nx,)
         Δθ from where each place between two columns begins, its centre or the end of a groove, to
         the face behind it.
+        In a groove 0.
     lobe : array (3, nx)
         Of the segment at these faces: H of the centred shaft is ``b − x cos θ − y sin θ``.
     shaped : bool
