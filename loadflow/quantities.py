@@ -44,7 +44,8 @@ READABLE = {
     "rad": (180 / math.pi, "°"),
     "m^3/s": (6e4, "l/min"),
     "m3/s": (6e4, "l/min"),  # of files of former versions
-    "1e6 revolution": (1.0, "Mrev"),
+    "megarevolution": (1.0, "Mrev"),
+    "1e6 revolution": (1.0, "Mrev"),  # of files of former versions
     "1": (1.0, "–"),
     "": (1.0, "–"),
 }
@@ -185,8 +186,8 @@ ROLLING: dict[str, Quantity] = {
     "pressure_safety": Quantity("", "1", "allowable over largest pressure"),
     "static_safety": Quantity("s_0", "1", "allowable over largest force"),
     "equivalent_load": Quantity("P", "N", "dynamic equivalent load"),
-    "rating_life": Quantity("L_10", "1e6 revolution", "basic rating life"),
-    "reference_life": Quantity("L_10r", "1e6 revolution", "reference life of ISO/TS 16281"),
+    "rating_life": Quantity("L_10", "megarevolution", "basic rating life"),
+    "reference_life": Quantity("L_10r", "megarevolution", "reference life of ISO/TS 16281"),
     "converged": Quantity("", "1", "whether every component is balanced"),
     "residual": Quantity("", "1", "largest unbalanced component over the load"),
     "iterations": Quantity("", "1", "Newton steps"),

@@ -21,7 +21,7 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped
-from loadflow.journal.thermal import at_temperatures, shares, warm_film
+from loadflow.journal.thermal import TOLERANCE, at_temperatures, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
 from loadflow.numerics.convergence import Control
@@ -72,6 +72,8 @@ class JournalBearing(JournalGeometry):
         bend: ArrayLike | None = None,
         whirl: float = 0.0,
         weights: ArrayLike | None = None,
+        warm: ArrayLike | None = None,
+        heat_tolerance: float = TOLERANCE,
         **keywords: Unpack[Keywords],
     ) -> Equilibrium:
         """Position of the shaft in which the film carries `force` at rest.
@@ -104,6 +106,11 @@ class JournalBearing(JournalGeometry):
             With heat, shares of time of the loads: all then have one temperature, that of their
             mean friction and flow, as in a bearing too slow to follow the load. Without, each load
             has its own.
+        warm : array_like (…), optional
+            With heat and without `weights`, temperatures near those of the balances, K, such as
+            those of a similar bearing; by default they are looked for from that of the inlet on.
+        heat_tolerance : float
+            What may be left of a balance of one temperature, K.
         **keywords
             Fields of `Film` and of `Control`.
 
@@ -128,6 +135,9 @@ class JournalBearing(JournalGeometry):
         loads, speeds, shape = operating_points(force, speed, "force")
         line = Line.of(shape, whirl, moment=moment, tilt=tilt, bend=bend)
         model = model_of("at_rest", film, self, line)
+        require(heat_tolerance > 0, "heat_tolerance", heat_tolerance, "> 0")
+        lone = film.heat is None or film.heat.over_area or weights is not None
+        require(warm is None or not lone, "warm", warm, "None without a temperature for each load")
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
@@ -154,7 +164,10 @@ class JournalBearing(JournalGeometry):
             return model.equilibrium(grown, cold, force, speed, line.at(places), each)
 
         share, at_rest = shares(weights, shape), at_temperatures(solve, self, film)
-        answer = warm_film(at_rest, loads, speeds, film, share, strict=limits.strict)
+        start = None if warm is None else np.broadcast_to(np.asarray(warm, float), shape).ravel()
+        answer = warm_film(
+            at_rest, loads, speeds, film, share, heat_tolerance, strict=limits.strict, start=start
+        )
         thinnest = _hottest(film.heat, answer["temperature"])
         warn_if_turbulent(self, speeds, thinnest, film.turbulence)
         warn_if_unresolved(answer)

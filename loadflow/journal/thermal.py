@@ -59,6 +59,7 @@ def warm_film(
     tolerance: float = TOLERANCE,
     max_iterations: int = TRIES,
     strict: bool = True,
+    start: Array | None = None,
 ) -> Columns:
     """Equilibrium of shaft, film and heat.
 
@@ -76,6 +77,8 @@ def warm_film(
         On the heat balance, K; temperatures tried.
     strict : bool
         Raise for the first load without an answer.
+    start : array (n,), optional
+        Temperatures, K, that are tried first; that of the inlet by default.
 
     Raises
     ------
@@ -87,7 +90,7 @@ def warm_film(
     check_scalable(film)
     heat = cast("Heat", film.heat)
     balance = _Balance(at_rest, force, speed, heat, weights)
-    warmth = balance.solve(tolerance, max_iterations)
+    warmth = balance.solve(tolerance, max_iterations, start)
     state = balance.film(warmth.temperature, np.arange(speed.size))
     found = state["converged"] & ((warmth.residual <= tolerance) | warmth.jumps)
     if strict and not found.all():
@@ -145,21 +148,23 @@ class _Balance:
     share: Array | None
     refused: Array = field(init=False)
     """Temperatures from which on a load has no film, K, (n,): warmer oil is thinner."""
-    last: tuple[Array, NDArray[np.int64], Columns] | None = field(init=False, default=None)
-    """Temperatures and places that were asked for last, and their films."""
+    known: Array = field(init=False)
+    """Temperatures of the films that are `kept`, K, (n,); NaN before."""
+    kept: Columns = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
         self.refused = np.full(self.speed.size, np.inf)
+        self.known = np.full(self.speed.size, np.nan)
 
     def film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         """Films of the loads at `places` (m,) at these temperatures (m,); the last are kept."""
-        if self.last is not None:
-            warm, asked, films = self.last
-            if np.array_equal(temperature, warm) and np.array_equal(places, asked):
-                return films
-        films = self._film(temperature, places)
-        self.last = temperature, places, films
-        return films
+        asked = self.known[places] != temperature
+        if asked.any():
+            found = self._film(temperature[asked], places[asked])
+            for name, values in found.items():
+                _put(self.kept, name, values, places[asked], self.known.size)
+            self.known[places[asked]] = temperature[asked]
+        return {name: rows if rows is None else rows[places] for name, rows in self.kept.items()}
 
     def _film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         reference = self.heat.lubricant(self.heat.inlet_temperature)
@@ -179,12 +184,15 @@ class _Balance:
             **{name: times_rows(state[name], 1.0 / thinner) for name in more},
         }
 
-    def solve(self, tolerance: float, max_iterations: int) -> _Warmth:
+    def solve(self, tolerance: float, max_iterations: int, start: Array | None = None) -> _Warmth:
         """Find the temperatures by secants between brackets; a film that fails is too thin."""
         heat, count = self.heat, 1 if self.share is not None else self.speed.size
         cold = heat.coldest
         low, high = np.full(count, cold), np.full(count, HOTTEST)
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
+        if start is not None:
+            known = np.isfinite(start) & (start > cold) & (start < HOTTEST)
+            warm = np.where(known, start, warm)
         before: tuple[Array, Array] | None = None
         reach, excess_low = np.full(count, -np.inf), np.zeros(count)  # of the balance, at `low`
         fails, tested = np.full(count, np.inf), np.zeros(count, dtype=bool)  # at the hottest
@@ -324,16 +332,19 @@ def at_temperatures(
             if heat.growth is not None:
                 found = found | {"clearance": np.full(int(some.sum()), now.clearance)}
             for name, values in found.items():
-                if values is None:
-                    joined[name] = None
-                    continue
-                whole = joined.setdefault(
-                    name, np.zeros((speed.size, *values.shape[1:]), dtype=values.dtype)
-                )
-                whole[some] = values
+                _put(joined, name, values, some, speed.size)
         return joined
 
     return at_rest
+
+
+def _put(columns: Columns, name: str, values: Any, places: NDArray[Any], count: int) -> None:
+    """Write `values` (m, …) of a column of `count` rows at some of their places, None as it is."""
+    if values is None:
+        columns[name] = None
+        return
+    shape = (count, *values.shape[1:])
+    columns.setdefault(name, np.zeros(shape, dtype=values.dtype))[places] = values
 
 
 def check_scalable(film: Film) -> None:

@@ -20,6 +20,7 @@ from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
+NEARLY_WARM = 0.05  # K: moves a film by less than 0.3 %, beside another bearing's that is asked
 _IN_MOTION = Control(tolerance=1e-6)  # 1e-8 moves films by 4e-5 at most, for an eighth more time
 
 
@@ -89,14 +90,21 @@ def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
 
 
 def equilibria(
-    options: Journal, force: np.ndarray, speed: np.ndarray, **line: np.ndarray
+    options: Journal,
+    force: np.ndarray,
+    speed: np.ndarray,
+    warm: np.ndarray | None = None,
+    **line: np.ndarray,
 ) -> Equilibrium:
     """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
 
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
-    1/m, it lies as they say; without, it stays aligned.
+    1/m, it lies as they say; without, it stays aligned. From temperatures `warm` (n,), K, of films
+    that are much the same, heat balances are solved to `NEARLY_WARM`.
     """
     lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
+    if warm is not None:
+        lying |= {"warm": warm, "heat_tolerance": NEARLY_WARM}
     with unresolved_counted():  # `film_summary` counts them
         return options.geometry.equilibrium(
             to_film(force), speed, options.film_model, strict=False, **lying

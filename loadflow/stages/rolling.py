@@ -38,8 +38,8 @@ KEPT = {
 
 # what is kept of each bearing of the shaft: units and meaning
 EACH = {
-    "bearing_life": ("1e6 revolution", "rating life L10"),
-    "bearing_modified_life": ("1e6 revolution", "modified life L10m, ISO 281"),
+    "bearing_life": ("megarevolution", "rating life L10"),
+    "bearing_modified_life": ("megarevolution", "modified life L10m, ISO 281"),
     "bearing_viscosity_ratio": ("1", "smallest viscosity ratio κ of what turns"),
     "bearing_temperature": ("K", "temperature of the bearing in its modified life"),
     "bearing_clearance": ("m", "clearance at work, as the kind of bearing states it"),
@@ -92,7 +92,7 @@ def load_distribution(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Da
         name: ("bearing", np.array([found[name] for found in each]), label(*EACH[name]))
         for name in EACH
     } | {
-        "life": ((), each[0]["bearing_life"], label("1e6 revolution", "rating life L10")),
+        "life": ((), each[0]["bearing_life"], label("megarevolution", "rating life L10")),
         "mean_speed": ((), _mean_speed(reduced), label("rad/s", "mean speed")),
     }
     worst = int(np.argmax(answer.maximum_force))
@@ -324,7 +324,7 @@ def _extremes(samples: xr.Dataset) -> xr.Dataset:
             "1",
             "smallest pressure safety",
         ),
-        "life": (samples["life"], "1e6 revolution", "rating life"),
+        "life": (samples["life"], "megarevolution", "rating life"),
         **{name: (samples[name], *labels) for name, labels in EACH.items()},
         "mean_speed": (samples["mean_speed"], "rad/s", "mean speed"),
         "largest_residual": (samples["residual"].max(), "1", "largest residual"),

@@ -144,7 +144,7 @@ def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:
     hours = math.nan if speed is None else float(life_hours(r.rating_life, speed))
     life, static = verdicts(hours, float(r.static_safety))
     rows: dict[str, tuple[Any, str, str]] = {
-        "rating_life": (r.rating_life, "1e6 revolution", "basic rating life L10"),
+        "rating_life": (r.rating_life, "megarevolution", "basic rating life L10"),
         "static_rating_holds": (
             static.holds,
             "1",

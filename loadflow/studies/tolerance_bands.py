@@ -10,7 +10,6 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import Equilibrium
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import FurtherBearing
@@ -19,17 +18,24 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.thrust import solved
+from loadflow.studies.band_films import (
+    HEAVIER,
+    Deciding,
+    Films,
+    deciding_of,
+    films_at,
+    load_margins,
+)
 from loadflow.studies.compare import Finished
 from loadflow.studies.compare_margins import load_by_row, lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
-from loadflow.studies.design_point import fast_journal, judge_design
+from loadflow.studies.design_point import judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of
 from loadflow.studies.wear_bands import rubbing_of
 
@@ -39,7 +45,6 @@ CLASSES = 3
 PADS = 12
 """Samples, the hardest first, in which films of pads are solved again."""
 
-_HEAVIER = 1.1  # factor on a load, for the power of it that an answer follows
 _SLOW = 0.1  # share of the samples that counts as low speed
 _SAME = 1e-9  # shares of a value below which a tolerance does not move it
 
@@ -123,27 +128,31 @@ def _as_share(number: Number, share: Number) -> Number:
 
 
 class Known:
-    """Numbers of the bearings as stated, which most tolerances share."""
+    """Bearings as stated, which most tolerances share: their numbers, and samples that decide."""
 
     def __init__(self) -> None:
-        self._found: list[tuple[Built, dict[str, float]]] = []
+        self._found: list[tuple[Built, dict[str, float], dict[str, Deciding]]] = []
 
-    def of(self, built: Built) -> dict[str, float]:
+    def of(self, built: Built) -> tuple[dict[str, float], dict[str, Deciding]]:
         """Those of one object, computed once."""
-        for one, numbers in self._found:
+        for one, known_numbers, known_deciding in self._found:
             if one is built:
-                return numbers
-        numbers = cheap_numbers(built)
-        self._found.append((built, numbers))
-        return numbers
+                return known_numbers, known_deciding
+        journal, deciding = built.candidate.journal, dict[str, Deciding]()
+        if journal is not None:
+            films = films_at(journal, built.spectrum)
+            deciding = {place: deciding_of(found) for place, found in films.items()}
+        numbers = cheap_numbers(built, deciding)
+        self._found.append((built, numbers, deciding))
+        return numbers, deciding
 
 
 def _moved(one: Judged, tolerance: Tolerance, known: Known) -> dict[str, tuple[float, float]]:
     """By quantity, how far a tolerance moves its value down and up, in the unit of the number."""
-    stated = known.of(tolerance.stated)
+    stated, deciding = known.of(tolerance.stated)
     found: dict[str, tuple[float, float]] = {}
     for end in tolerance.ends:
-        there = cheap_numbers(end)
+        there = cheap_numbers(end, deciding)
         for key, number in one.numbers.items():
             before, after = (values.get(key, math.nan) for values in (stated, there))
             if not (math.isfinite(before) and math.isfinite(after) and math.isfinite(number.value)):
@@ -159,14 +168,16 @@ def _moved(one: Judged, tolerance: Tolerance, known: Known) -> dict[str, tuple[f
 # --- numbers by cheap models ----------------------------------------------------------------------
 
 
-def cheap_numbers(built: Built) -> dict[str, float]:
+def cheap_numbers(built: Built, deciding: Mapping[str, Deciding] | None = None) -> dict[str, float]:
     """Numbers of a comparison by the cheap models of a design, by quantity.
 
-    Only their changes as shares are asked, so that units and what all share do not matter.
+    Only their changes as shares are asked, so that units and what all share do not matter. Films of
+    journal bearings are those of all samples, or of those that are `deciding`.
     """
     candidate, spectrum, found = built.candidate, built.spectrum, dict[str, float]()
     if candidate.journal is not None:
-        found |= _of_films(candidate.journal, spectrum)
+        films = films_at(candidate.journal, spectrum, deciding)
+        found |= _of_films(candidate.journal, films, spectrum.attrs["seconds"])
     if candidate.rolling is not None:
         alone = Candidate(rolling=candidate.rolling)
         found |= judge_design(alone, built.friction, spectrum).numbers
@@ -178,68 +189,43 @@ def cheap_numbers(built: Built) -> dict[str, float]:
     return found
 
 
-def _of_films(journal: Journal, spectrum: xr.DataTree) -> dict[str, float]:
+def _of_films(journal: Journal, films: Mapping[str, Films], seconds: float) -> dict[str, float]:
     """Films of journal bearings at rest; their margin by powers of the load at the hardest ones."""
     sums = dict.fromkeys(("power", "pump", "oil_flow"), 0.0)
-    films, rough, ratios, pressures, margins, mixed = [], [], [], [], [], []
-    for place in journal.bearings:
-        options, samples = fast_journal(journal.at(place)), spectrum[place].to_dataset()
-        answer = _at(options, samples)
-        weight = samples["weight"].values
+    thinnest, rough, ratios, pressures, factors, mixed = [], [], [], [], [], []
+    for place, found in films.items():
+        options, answer, heavier = journal.at(place), found.answer, found.heavier
+        weight = found.samples["weight"].values
         turning = answer.converged & (weight > 0)
         own = weight * turning
         scale = weight.sum() / max(own.sum(), 1e-300)  # those without a film lose as the others do
         sums["power"] += scale * _mean(answer.friction_power, own)
         sums["pump"] += scale * _mean(answer.supply_power, own)
         sums["oil_flow"] += scale * _mean(answer.side_flow, own)
-        judged = answer.converged & samples["running"].values.astype(bool)
-        film = np.where(judged, answer.minimum_film, np.inf)
-        pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
-        thin, hard = int(np.argmin(film)), int(np.argmax(pressure))
-        heavier = _at(options, samples.isel(sample=[thin, hard]), _HEAVIER)
-        thinner, higher = heavier.minimum_film[0] / film[thin], pressure[hard]
-        reserves = film[thin] / options.least_film, options.limits.pressure_at(0.0) / higher
-        margins += _margins(reserves, (thinner, heavier.maximum_pressure[1] / higher))
-        films.append(float(film[thin]))
-        rough.append(films[-1] / options.contact_film)
-        pressures.append(float(higher))
-        ratios.append(float(answer.eccentricity_ratio[judged].max(initial=0.0)))
+        film = float(np.where(found.judged, answer.minimum_film, np.inf)[found.thin])
+        pressure = float(np.where(answer.converged, answer.maximum_pressure, 0.0)[found.hard])
+        thinner, higher = heavier.minimum_film[0] / film, heavier.maximum_pressure[1] / pressure
+        reserves = film / options.least_film, options.limits.pressure_at(0.0) / pressure
+        factors += load_margins(reserves, (thinner, higher))
+        thinnest.append(film)
+        rough.append(film / options.contact_film)
+        pressures.append(pressure)
+        ratios.append(float(answer.eccentricity_ratio[found.judged].max(initial=0.0)))
         formed = turning & (answer.eccentricity_ratio <= options.critical_eccentricity_ratio)
         mixed.append(float(weight.sum() - (weight * formed).sum()))
     return {
-        "minimum_film": min(films),
+        "minimum_film": min(thinnest),
         "film_to_roughness": min(rough),
         "eccentricity_ratio": max(ratios),
         "film_pressure": max(pressures),
-        "load_factor": min(margins, default=math.nan),
+        "load_factor": min(factors, default=math.nan),
         "friction": sums["power"],
         "energy": sums["power"] + sums["pump"],
         "oil_flow": sums["oil_flow"],
         "pump": sums["pump"],
-        "mixed_time": max(mixed) * spectrum.attrs["seconds"] / 3600,
-        "tilt": 1.0 / min(films),
+        "mixed_time": max(mixed) * seconds / 3600,
+        "tilt": 1.0 / min(thinnest),
     }
-
-
-def _at(options: Journal, samples: xr.Dataset, factor: float = 1.0) -> Equilibrium:
-    """Films under samples of a spectrum with a factor on the loads."""
-    force = factor * samples["force"].transpose("sample", "axis").values
-    line = shaft_line(options, samples)
-    return equilibria(options, force, samples["speed"].values, **line)
-
-
-def _margins(reserves: Sequence[float], grown: Sequence[float]) -> list[float]:
-    """Factors on the load to each limit, by the power of the load that answers follow.
-
-    `reserves` are what is left to the limits, `grown` what a load `_HEAVIER` makes of the answers,
-    as factors both.
-    """
-    pairs = ((reserve, np.log(one)) for reserve, one in zip(reserves, grown))
-    return [
-        float(reserve ** (math.log(_HEAVIER) / abs(step)))
-        for reserve, step in pairs
-        if math.isfinite(step) and step != 0
-    ]
 
 
 def _mean(values: np.ndarray, weight: np.ndarray) -> float:
@@ -332,14 +318,14 @@ def _margins_of_pads(
     film, pressure = (answer[name].values for name in ("minimum_film", "maximum_pressure"))
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
     hardest = some.isel(sample=[thin, hard])
-    loads = {name: _HEAVIER * hardest[name] for name in ("force", "moment")}
+    loads = {name: HEAVIER * hardest[name] for name in ("force", "moment")}
     try:
         heavier = solved(bearing, place, hardest.assign(loads))
     except SolverError:  # no film carries as much
         return []
     limits = bearing.limits
     allowed = limits.pressure_at(limits.material[0][0])
-    return _margins(
+    return load_margins(
         (film[thin] / bearing.least_film, allowed / pressure[hard]),
         (
             heavier["minimum_film"].values[0] / film[thin],

@@ -1,0 +1,199 @@
+"""Films of journal bearings for bands by tolerances: all samples as stated, at the ends few.
+
+A tolerance moves an answer by a share. Which sample has the thinnest film or the largest pressure
+is known from the bearings as stated, and means follow from the few that last longest, so that only
+those are solved at the ends, their heat balances from the temperatures as stated.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.journal import Equilibrium
+from loadflow.scene.journal import Journal
+from loadflow.stages.film_of_bearing import equilibria, shaft_line
+from loadflow.stages.frames import to_film
+from loadflow.studies.design_point import fast_journal
+
+HEAVIER = 1.1
+"""Factor on a load, for the power of it that an answer follows."""
+
+LASTING = 4
+"""Samples of a place that stand for all in the means at the ends of tolerances."""
+
+_DOUBTFUL = 0.1  # share of the critical eccentricity within which a film may cross it at an end
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Films:
+    """Films of a bearing under samples of a spectrum, and of the hardest under more load.
+
+    Attributes
+    ----------
+    options : Journal
+        The bearing, with the cheap model.
+    samples : xarray.Dataset
+        The samples, with the weights that they count with.
+    answer : Equilibrium
+        Of all samples.
+    thin, hard : int
+        Samples of the thinnest film, of those that run, and of the largest pressure.
+    heavier : Equilibrium
+        Of these two, under `HEAVIER` times their load.
+    """
+
+    options: Journal
+    samples: xr.Dataset
+    answer: Equilibrium
+    thin: int
+    hard: int
+    heavier: Equilibrium
+
+    @property
+    def judged(self) -> NDArray[np.bool_]:
+        """Samples whose film is held to the limit: the rotor runs."""
+        return _judged(self.samples, self.answer)
+
+    @property
+    def temperature(self) -> Floats | None:
+        """K, of each sample, where there is a heat balance of one temperature."""
+        return getattr(self.answer, "temperature", None) if _one_temperature(self.options) else None
+
+
+@dataclass(frozen=True)
+class Deciding:
+    """Samples of a place that decide, where they are among all, and what is known of them."""
+
+    places: NDArray[np.int64]
+    weight: Floats
+    films: Films
+
+    def of(self, options: Journal, samples: xr.Dataset) -> Films:
+        """Films of a bearing much like the one as stated, under its samples of these places.
+
+        Where films do not depend on what differs, such as the roughness of a smooth model, they are
+        those as stated.
+        """
+        some = samples.isel(sample=self.places)
+        some = some.assign(weight=some["weight"].copy(data=self.weight))
+        known = self.films
+        if options.film_model == known.options.film_model and (
+            options.geometry == known.options.geometry and _alike(some, known.samples)
+        ):
+            kept = {name: getattr(known, name) for name in ("answer", "thin", "hard", "heavier")}
+            return Films(options, some, **kept)
+        return films_of(options, some, known.temperature)
+
+
+def films_of(options: Journal, samples: xr.Dataset, warm: Floats | None = None) -> Films:
+    """Films of a bearing; from temperatures `warm`, K, that are near those of its balances."""
+    answer = _at(options, samples, 1.0, warm)
+    judged = _judged(samples, answer)
+    thin = int(np.argmin(np.where(judged, answer.minimum_film, np.inf)))
+    hard = int(np.argmax(np.where(answer.converged, answer.maximum_pressure, 0.0)))
+    found = Films(options, samples, answer, thin, hard, answer)
+    near = None if found.temperature is None else found.temperature[[thin, hard]]
+    heavier = _at(options, samples.isel(sample=[thin, hard]), HEAVIER, near)
+    return replace(found, heavier=heavier)
+
+
+def films_at(
+    journal: Journal, spectrum: xr.DataTree, deciding: Mapping[str, Deciding] | None = None
+) -> dict[str, Films]:
+    """Films of all bearings, by place: under all samples, or those that decide."""
+    found = {}
+    for place in journal.bearings:
+        options, samples = fast_journal(journal.at(place)), spectrum[place].to_dataset()
+        known = None if deciding is None else deciding.get(place)
+        found[place] = films_of(options, samples) if known is None else known.of(options, samples)
+    return found
+
+
+def deciding_of(films: Films) -> Deciding:
+    """Samples that decide at the ends of tolerances, out of all.
+
+    The thinnest film, the largest pressure and the largest eccentricity; films that may cross the
+    critical eccentricity; and those that last longest. Others count with the one of the last whose
+    load and speed are nearest.
+    """
+    answer, samples, options = films.answer, films.samples, films.options
+    weight = samples["weight"].values
+    ratio = np.where(films.judged, answer.eccentricity_ratio, 0.0)
+    critical = options.critical_eccentricity_ratio
+    turning = answer.converged & (weight > 0)
+    doubtful = turning & (np.abs(answer.eccentricity_ratio - critical) < _DOUBTFUL * critical)
+    lasting = np.argsort(np.where(turning, weight, 0.0))[::-1][:LASTING]
+    lasting = lasting[turning[lasting]]
+    some = [films.thin, films.hard, int(np.argmax(ratio)), *np.flatnonzero(doubtful), *lasting]
+    places = np.unique(np.array(some, dtype=np.int64))
+    shared = np.where(np.isin(np.arange(weight.size), places), weight, 0.0)
+    if lasting.size:
+        near = _nearest(samples, lasting)
+        others = np.setdiff1d(np.flatnonzero(weight > 0), places)
+        np.add.at(shared, lasting[near[others]], weight[others])
+    kept = samples.isel(sample=places)
+    kept = kept.assign(weight=kept["weight"].copy(data=shared[places]))
+    thin, hard = (int(np.searchsorted(places, one)) for one in (films.thin, films.hard))
+    own = Films(options, kept, _rows(answer, places), thin, hard, films.heavier)
+    return Deciding(places, shared[places], own)
+
+
+def _nearest(samples: xr.Dataset, some: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Which of `some` samples has the nearest radial load and speed, for each sample."""
+    load = np.hypot(*to_film(samples["force"].transpose("sample", "axis").values).T)
+    points = np.column_stack([load, np.abs(samples["speed"].values)])
+    points = points / np.maximum(points.max(axis=0), 1e-300)
+    return np.argmin(np.linalg.norm(points[:, None] - points[some], axis=2), axis=1)
+
+
+def _rows(answer: Equilibrium, places: NDArray[np.int64]) -> Any:
+    """Some rows of an answer."""
+    fields = {
+        name: value[places] if isinstance(value, np.ndarray) and value.ndim else value
+        for name, value in vars(answer).items()
+    }
+    return type(answer)(**fields)
+
+
+def _at(options: Journal, samples: xr.Dataset, factor: float, warm: Floats | None) -> Equilibrium:
+    """Films under samples of a spectrum with a factor on the loads."""
+    force = factor * samples["force"].transpose("sample", "axis").values
+    line = shaft_line(options, samples)
+    return equilibria(options, force, samples["speed"].values, warm, **line)
+
+
+def _judged(samples: xr.Dataset, answer: Equilibrium) -> NDArray[np.bool_]:
+    return np.asarray(answer.converged & samples["running"].values.astype(bool))
+
+
+def _one_temperature(options: Journal) -> bool:
+    return options.heat is not None and not options.heat.over_area
+
+
+def _alike(one: xr.Dataset, other: xr.Dataset) -> bool:
+    """Whether loads and shaft are the same."""
+    names = [name for name in ("force", "speed", "moment", "tilt", "curvature") if name in other]
+    return all(np.array_equal(one[name].values, other[name].values) for name in names)
+
+
+def load_margins(reserves: Sequence[float], grown: Sequence[float]) -> list[float]:
+    """Factors on the load to each limit, by the power of the load that answers follow.
+
+    `reserves` are what is left to the limits, `grown` what a load `HEAVIER` makes of the answers,
+    as factors both.
+    """
+    pairs = ((reserve, np.log(one)) for reserve, one in zip(reserves, grown))
+    return [
+        float(reserve ** (math.log(HEAVIER) / abs(step)))
+        for reserve, step in pairs
+        if math.isfinite(step) and step != 0
+    ]
