@@ -14,6 +14,7 @@ from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
 from loadflow.scene.journal import Journal
 from loadflow.seeds import group_seeds_jointly
+from loadflow.stages.film_past import past_of_speed
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.studies.bearing_series import iter_bearings, with_bearings
@@ -409,6 +410,21 @@ def test_samples_at_standstill_have_no_film_and_no_orbit(start_up):
     assert measures[0] == films.ratio[~stands].max()
     assert measures[4] == pytest.approx(films.power[~stands].mean())
     assert np.isnan(films.part(slice(0, 50)).measures()).all()  # it stands all the time
+
+
+def test_the_orbit_of_a_comparison_begins_as_those_of_runs_do(tmp_path):
+    """At rest under its first load the film would have carried it for ever."""
+    cube = cube_file(tmp_path / "loads.h5", seeds=(1,))
+    series = next(iter_bearings(open_cube(cube), ["N"]))
+    journal = Journal(rung="reduced", grid=(36, 8))
+    orbit = solve_films(series, journal).orbit
+    given = {"time": series.time, "speed": series.speed, "force": series.radial}
+    past = past_of_speed(series.speed, np.diff(series.time)[0], np.ones(series.time.size, bool))
+    path = journal.geometry.orbit(**past.before(given), film=journal.film_model)
+    assert past.steps > 0
+    np.testing.assert_allclose(orbit, path["eccentricity_ratio"].values[past.steps :], rtol=1e-12)
+    still = journal.geometry.orbit(**given, film=journal.film_model)
+    assert orbit[0] != pytest.approx(float(still["eccentricity_ratio"][0]), rel=1e-3)
 
 
 def test_the_film_of_a_comparison_is_that_of_the_scene(start_up):

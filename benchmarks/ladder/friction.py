@@ -28,7 +28,7 @@ ROLLING = {
 }
 INCLUDES = {
     "balls": "ideal rolling: films, rolling resistance, differential slip, spin",
-    "rollers": "films, rolling resistance; spin of every roller followed",
+    "rollers": "films, rolling resistance, differential slip; spin of every roller followed",
 }
 STEPS = (0.1, 0.2, 0.4)
 FINEST = 0.05

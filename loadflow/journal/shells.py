@@ -20,6 +20,7 @@ from loadflow.journal.housings import HousedShell, InfluenceShell
 from loadflow.journal.shell_base import ElasticShell
 from loadflow.numerics.fields import require
 from loadflow.numerics.matrix_file import digest_of, read_matrix
+from loadflow.tribology.hertz import effective_modulus
 
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
@@ -56,6 +57,47 @@ class LocalShell(ElasticShell):
     def __post_init__(self) -> None:
         good = self.compliance >= 0 and math.isfinite(self.compliance)
         require(good, "compliance", self.compliance, "m/Pa, ≥ 0, finite")
+
+    @classmethod
+    def conformal(
+        cls,
+        line_load: float,
+        diameter: float,
+        relative_clearance: float,
+        contact_modulus: float | None = None,
+    ) -> LocalShell:
+        """What shaft and shell, two half-spaces, give where a standing shaft rests on its bore.
+
+        Of the half width b of their line contact [Hertz 1881], whose radius is D/(2ψ), the
+        compliance is 9π²b/(64 E*): springs as stiff have its largest pressure under its load. A
+        rigid bore would press a shaft that is tilted by a few 1e-5 against one edge.
+
+        Parameters
+        ----------
+        line_load : float
+            Load of the standing shaft over the width of the bearing, N/m.
+        diameter : float
+            m.
+        relative_clearance : float
+            ψ.
+        contact_modulus : float, optional
+            E* of the bodies, not of their asperities, Pa; left out, of steel on steel.
+
+        Examples
+        --------
+        >>> from loadflow.journal import LocalShell
+        >>> steel = LocalShell.conformal(2e6 / 2.25, diameter=3.0, relative_clearance=0.5e-3)
+        >>> f"{steel.compliance:.3g}"  # m/Pa
+        '2.06e-12'
+        """
+        require(line_load > 0, "line_load", line_load, "N/m, > 0")
+        require(diameter > 0, "diameter", diameter, "m, > 0")
+        require(relative_clearance > 0, "relative_clearance", relative_clearance, "> 0")
+        stiff = float(effective_modulus()) if contact_modulus is None else contact_modulus
+        require(stiff > 0, "contact_modulus", stiff, "Pa, > 0")
+        curvature = 2.0 * relative_clearance / diameter
+        width = math.sqrt(4.0 * line_load / (math.pi * curvature * stiff))
+        return cls(9.0 * math.pi**2 / 64.0 * width / stiff)
 
 
 @dataclass(frozen=True)

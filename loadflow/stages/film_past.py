@@ -64,11 +64,18 @@ def past_of(scene: Scene, loads: xr.Dataset) -> Past:
 
     A rotor that stands or idles at first has the film at rest that it really has.
     """
-    runs = running(scene, loads).values
+    return past_of_speed(loads["speed"].values, time_step(loads), running(scene, loads).values)
+
+
+def past_of_speed(speed: Floats, step: float, runs: NDArray[np.bool_]) -> Past:
+    """Past of a film under loads at `speed` (n,), rad/s, every `step`, s.
+
+    As `past_of`; `runs` (n,) says when the rotor runs.
+    """
     still = np.flatnonzero(~runs)
     length = int(still[0]) if still.size else runs.size
     if length < 4:  # too short to foretell from
         return AT_REST
-    turn = 2.0 * np.pi / (np.abs(loads["speed"].values[:length]).mean() * time_step(loads))
+    turn = 2.0 * np.pi / (np.abs(speed[:length]).mean() * step)
     known = min(length, round(KNOWN * turn))
     return Past(round(TURNS * turn), min(round(turn), known // 3), known)

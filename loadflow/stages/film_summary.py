@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -42,6 +42,10 @@ EXTREMES = {
 }
 """Extremes of a series: of what, which, units and meaning; each also has its ``_time``."""
 
+IN_MOTION = ("maximum_pressure",)
+"""Of which the extreme is one of samples in which the shaft turns: under a shaft that stands, oil
+shut in between the surfaces has any pressure, and what they carry is the specific load."""
+
 MEANS = {
     "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
     "mean_sommerfeld_number": ("sommerfeld_number", "1", "mean So"),
@@ -63,18 +67,18 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
     Samples in contact or without an answer have no values; they are counted. Means leave out those
     in which the rotor stands or idles, where ``running`` says so.
     """
-    weight, found = samples["weight"], {}
+    weight, turning = samples["weight"], _turning(samples)
+    found: dict[str, tuple[xr.DataArray, str, str]] = {}
     for name, (of, which, units, meaning) in EXTREMES.items():
-        if of not in samples:
-            continue
-        values, time = samples[of].values, samples.get("time")
-        there = bool(np.isfinite(values).any())
-        at = int(which(np.where(np.isfinite(values), values, np.nan))) if there else 0
-        found[name] = xr.DataArray(values[at] if there else np.nan), units, meaning
-        if time is not None:
-            when = float(time.values[at]) if there else np.nan
-            found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
-    found |= _grid_errors(samples)
+        if of in samples:
+            values = samples[of].values
+            if of in IN_MOTION:
+                values = np.where(turning, values, np.nan)
+            found |= _extreme(samples, name, values, which, units, meaning)
+    if "load" in samples:
+        values, meaning = np.where(turning, np.nan, samples["load"].values), "largest load standing"
+        found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
+    found |= _grid_errors(samples, turning)
     for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
         for name, (of, units, meaning) in means.items():
             if of in samples:
@@ -94,12 +98,34 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
     return labelled(found)
 
 
-def _grid_errors(samples: xr.Dataset) -> dict[str, tuple[xr.DataArray, str, str]]:
+def _extreme(
+    samples: xr.Dataset,
+    name: str,
+    values: NDArray[np.float64],
+    which: Callable[[NDArray[np.float64]], Any],
+    units: str,
+    meaning: str,
+) -> dict[str, tuple[xr.DataArray, str, str]]:
+    """One extreme of `values` with its time; NaN where none is known."""
+    known = np.isfinite(values)
+    at = int(which(np.where(known, values, np.nan))) if known.any() else 0
+    found = {name: (xr.DataArray(values[at] if known.any() else np.nan), units, meaning)}
+    if "time" in samples:
+        when = float(samples["time"].values[at]) if known.any() else np.nan
+        found[f"{name}_time"] = xr.DataArray(when), "s", f"time of the {meaning}"
+    return found
+
+
+def _grid_errors(
+    samples: xr.Dataset, turning: NDArray[np.bool_]
+) -> dict[str, tuple[xr.DataArray, str, str]]:
     """Bounds of what the cells do to the extremes: of films at rest each its own, of a path one."""
     found = {}
     for name in ("smallest_film", "largest_pressure"):
         of, which, units, meaning = EXTREMES[name]
         values, bounds = samples[of].values, samples.get(of + GRID_ERROR)
+        if of in IN_MOTION:
+            values = np.where(turning, values, np.nan)
         bound = samples.attrs.get(of + GRID_ERROR, np.nan)
         if bounds is not None and np.isfinite(values).any():
             bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]
@@ -156,7 +182,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     """
     time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
     touching = samples["in_contact"].values.astype(bool)
-    turning = (speed >= STANDING) & ~_swinging(time, samples["speed"].values)
+    turning = _turning(samples)
     known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
@@ -219,6 +245,17 @@ def _changes(
     last = int(changed[-1])
     there = float(time[last]), float(speed[last])
     return (there, none) if touching[0] else (none, there)
+
+
+def _turning(samples: xr.Dataset) -> NDArray[np.bool_]:
+    """Whether the shaft turns, at each sample: one that swings in its brake stands."""
+    if "speed" not in samples:
+        return np.ones(samples["converged"].shape, dtype=bool)
+    speed = samples["speed"].values
+    moves = np.abs(speed) >= STANDING
+    if "time" in samples:
+        moves &= ~_swinging(samples["time"].values, speed)
+    return np.asarray(moves)
 
 
 def _swinging(time: np.ndarray, speed: np.ndarray) -> NDArray[np.bool_]:

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.cube import standing
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
+from loadflow.stages.film_past import AT_REST, past_of_speed
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.journal import fast_film
 from loadflow.studies.bearing_series import BearingSeries
@@ -85,19 +87,31 @@ def solve_films(series: BearingSeries, journal: Journal, transient: bool = True)
     film = bearing.equilibrium(force, speed, journal.film_model, strict=False)
     found = np.asarray(film.converged, dtype=bool)
     drag = journal.lubricant.viscosity * np.where(found, np.abs(speed), np.nan)
-    orbit = np.empty(0)
-    if transient and found.all():
-        try:
-            path = bearing.orbit(series.time, force, speed, journal.film_model)
-            orbit = path["eccentricity_ratio"].values
-        except SolverError:  # the static films stand for themselves; the table says "-"
-            orbit = np.empty(0)
+    orbit = _orbit(series, journal) if transient and found.all() else np.empty(0)
     return Films(
         np.where(found, film.eccentricity_ratio, np.nan),
         film.maximum_pressure * bearing.relative_clearance**2 / drag,
         np.where(found, film.friction_power, np.nan),
         orbit,
     )
+
+
+def _orbit(series: BearingSeries, journal: Journal) -> Floats:
+    """Eccentricity ratio along a series, (n,); (0,) if no film is found, as the table then says.
+
+    It begins with the past of the films of a run, and at rest where that has none.
+    """
+    given = {"time": series.time, "speed": series.speed, "force": series.radial}
+    step = float(np.ptp(series.time)) / (series.time.size - 1)
+    runs = ~standing(xr.Dataset({"speed": ("time", series.speed)})).values
+    for past in dict.fromkeys((past_of_speed(series.speed, step, runs), AT_REST)):
+        try:
+            loads: dict[str, Any] = past.before(given)
+            path = journal.geometry.orbit(**loads, film=journal.film_model)
+        except SolverError:
+            continue
+        return np.asarray(path["eccentricity_ratio"].values[past.steps :])
+    return np.empty(0)
 
 
 def for_long_series(journal: Journal) -> Journal:

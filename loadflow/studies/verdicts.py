@@ -24,6 +24,7 @@ from loadflow.wind.cases import LOAD_CASES
 Tables = Mapping[str, xr.Dataset]
 
 _SLIGHT = 1e-6  # of the radial load: a force along the shaft below this is none
+_ISOTHERMAL = "temperature not computed: the film has one viscosity"
 _STATED = "as the scene states"
 
 
@@ -84,8 +85,10 @@ def _of_journal(
     if production.sizes["case"]:
         yield from _film(options, subject, production)
     yield from _pressure(limits, subject, table, "journal")
+    area = options.geometry.width * options.geometry.diameter
+    if "standing_load" in table:
+        yield from _of_standing(limits, subject, table, area)
     if limits.specific_load is not None:
-        area = options.geometry.width * options.geometry.diameter
         value, case, _ = _worst(table, "largest_load", "most")
         yield Verdict(
             subject, "specific load F/(B D)", value / area, limits.specific_load, "at most", "Pa",
@@ -230,20 +233,48 @@ def _where(table: xr.Dataset, name: str, in_contact: float) -> xr.DataArray:
 def _pressure(
     limits: FilmLimits, subject: str, table: xr.Dataset, section: str
 ) -> Iterator[Verdict]:
-    """Largest film pressure against the material at the temperature of the film."""
-    warm = "largest_temperature" in table
+    """Largest film pressure of a shaft that turns against the material at its temperature."""
     value, case, time = _worst(table, "largest_pressure", "most")
-    if not case:
-        return
-    kelvin = float(table["largest_temperature"].sel(case=case)) if warm else np.nan
-    warm = bool(np.isfinite(kelvin))  # a bearing of its own may be cold beside a warm one
-    kelvin = kelvin if warm else limits.material[0][0]
+    if case:
+        note = "" if _warm(table, case) else _ISOTHERMAL
+        yield _of_material(
+            limits, subject, "largest film pressure", value, table, case, time, note, section
+        )
+
+
+def _of_standing(
+    limits: JournalLimits, subject: str, table: xr.Dataset, area: float
+) -> Iterator[Verdict]:
+    """Specific load of a shaft that stands against the material.
+
+    It rests on no film; the largest pressure of its contact is one of elastic bodies, and p̄_lim of
+    ISO 7902-3 is one of F/(B D).
+    """
+    value, case, time = _worst(table, "standing_load", "most")
+    if case:
+        note = "the shaft stands: no film pressure is held against the material"
+        what = "specific load F/(B D) at standstill"
+        yield _of_material(limits, subject, what, value / area, table, case, time, note, "journal")
+
+
+def _warm(table: xr.Dataset, case: str) -> float:
+    """Largest temperature in a case, K; 0 where none is known."""
+    if "largest_temperature" not in table:
+        return 0.0
+    kelvin = float(table["largest_temperature"].sel(case=case))
+    return kelvin if np.isfinite(kelvin) else 0.0  # a bearing may be cold beside a warm one
+
+
+def _of_material(
+    limits: FilmLimits, subject: str, what: str, value: float, table: xr.Dataset, case: str,
+    time: float, note: str, section: str,
+) -> Verdict:  # fmt: skip
+    """Hold a pressure against the material of the shell."""
     points = ", ".join(f"{p / 1e6:g} MPa at {t - 273.15:.0f} °C" for t, p in limits.material)
-    yield Verdict(
-        subject, "largest film pressure", value, limits.pressure_at(kelvin), "at most", "Pa",
+    return Verdict(
+        subject, what, value, limits.pressure_at(_warm(table, case)), "at most", "Pa",
         _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,
-        "" if warm else "temperature not computed: the film has one viscosity",
-        f"{section}.limits.material",
+        note, f"{section}.limits.material",
     )  # fmt: skip
 
 

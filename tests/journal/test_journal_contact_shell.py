@@ -16,7 +16,7 @@ from loadflow.journal import (
     ThickShell,
 )
 from loadflow.journal.film import shell_contact
-from loadflow.tribology import AsperityContact
+from loadflow.tribology import AsperityContact, hertz_line
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
 ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=115e9, factor=1e-3), friction=0.1)
@@ -164,3 +164,37 @@ def test_damping_of_a_shell_pressed_open_around():
     behind = np.linalg.solve(still.stiffness, still.damping @ moving)
     lag = still.eccentricity - path.eccentricity.values[-1]
     np.testing.assert_allclose(lag, behind, atol=0.002 * np.abs(behind).max())
+
+
+def test_a_standing_shaft_on_what_its_bodies_give_has_the_pressure_of_hertz():
+    """Line contact of radius R/ψ; the pressure of asperities is found the same on any cells."""
+    line = float(
+        hertz_line(BEARING.relative_clearance / BEARING.radius, 0.0, length=0.1, force=2e4).pressure
+    )
+    shell = LocalShell.conformal(2e5, BEARING.diameter, BEARING.relative_clearance)
+    smooth = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=5e-8))
+    film = replace(FILM, shell=shell, contact=smooth)
+    fine, coarse = (
+        float(BEARING.equilibrium((2e4, 0.0), 0.0, replace(film, grid=grid)).contact_pressure)
+        for grid in ((384, 8), (48, 8))
+    )
+    assert fine == pytest.approx(line, rel=0.01)
+    assert coarse == pytest.approx(fine, rel=1e-3)
+
+
+def test_the_pressure_under_a_tilted_shaft_that_stands_goes_to_one_as_cells_are_halved():
+    """In a rigid bore oil and asperities at one edge have pressures far above all strengths."""
+    shell = LocalShell.conformal(4e5, BEARING.diameter, BEARING.relative_clearance)
+    time = np.linspace(0.0, 20.0, 401)
+    force = np.tile([4e4, 5e3], (time.size, 1))
+    speed = 5.0 * np.maximum(1.0 - time, 0.0)
+    largest = {}
+    for around in (120, 240, 480):
+        film = replace(FILM, grid=(around, 8), rung="reduced", shell=shell)
+        path = BEARING.orbit(time, force, speed, film, tilt=np.tile(10 * TILT, (time.size, 1)))
+        stands = path.isel(time=speed == 0.0)
+        largest[around] = [float(stands[n].max()) for n in ("maximum_pressure", "contact_pressure")]
+    first, second = (np.abs(np.subtract(largest[n], largest[2 * n])) for n in (120, 240))
+    assert (second < 0.25 * first).all()
+    np.testing.assert_allclose(largest[480], largest[240], rtol=2e-3)
+    assert max(largest[480]) < 15e6  # rigid, the same has 36 and 96 MPa

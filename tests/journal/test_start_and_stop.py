@@ -10,7 +10,8 @@ from loadflow.journal.transition import load_capacity
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import journal as stage
-from loadflow.stages.film_summary import mixed_friction
+from loadflow.stages.film_summary import extremes, mixed_friction
+from loadflow.studies.verdicts import verdicts
 
 LOAD = 1e6
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -163,6 +164,45 @@ def test_a_film_that_outlasts_the_stop_is_timed():
     assert told["film_after_stop"] == pytest.approx(2.5)
     assert told["touch_down_time"] == 6.0
     assert told["mixed_friction_time"] == 0.0
+
+
+def test_pressures_are_those_of_a_shaft_that_turns_and_one_that_stands_has_a_load():
+    speed = np.array([1.0, 0.5, 0.0, 0.0])
+    sample = "sample"
+    samples = xr.Dataset(
+        {
+            "sample": np.arange(4),
+            "time": (sample, np.arange(4.0)),
+            "speed": (sample, speed),
+            "weight": (sample, np.ones(4)),
+            "load": (sample, [2e6, 2.5e6, 1.5e6, 1.4e6]),
+            "maximum_pressure": (sample, [2e6, 3e6, 60e6, 70e6]),
+            "minimum_film": (sample, [8e-5, 5e-5, 1e-6, 1e-9]),
+            "converged": (sample, np.ones(4, bool)),
+            "residual": (sample, np.zeros(4)),
+            "friction_power": (sample, np.ones(4)),
+        }
+    )
+    told = extremes(samples)
+    assert told["largest_pressure"] == 3e6
+    assert told["largest_pressure_time"] == 1.0
+    assert told["standing_load"] == 1.5e6
+    assert told["standing_load_time"] == 2.0
+    turning = extremes(samples.isel(sample=slice(0, 2)))
+    assert np.isnan(turning["standing_load"])
+
+
+def test_a_standing_shaft_is_judged_by_its_specific_load(start):
+    scene, _, samples, _ = start
+    table = stage.summary({Case("3.1", 8.0, 1): xr.DataTree.from_dict({"N": samples})})
+    found = {v.quantity: v for v in verdicts(scene, {"journal": table}, None)}
+    own = found["specific load F/(B D) at standstill"]
+    assert own.value == pytest.approx(LOAD / (3.0 * 2.25))
+    assert own.limit == 7e6
+    assert own.key == "journal.limits.material"
+    assert "stands" in own.note
+    pressure = found["largest film pressure"]
+    assert own.value < pressure.value < own.limit
 
 
 def test_a_braked_shaft_that_swings_stands():
