@@ -22,7 +22,8 @@ from loadflow.journal.film.gap_rough import RoughElasticGap
 
 Array = NDArray[np.float64]
 
-_STEPS, _HALVINGS = 80, 8
+_STEPS, _HALVINGS = 30, 8
+_LARGEST = 300.0  # growth by the film alone, clearances: an iteration that has lost its way
 _EXACT = 1e-13  # of growth and roughness, what is left of the balance of a shell
 _ENOUGH = 1e-9  # the same, beyond which there is no growth that fits
 
@@ -63,6 +64,8 @@ class ShellContact(YieldingNodeLoad):
         """
         self._unit_growth = unit
         alone = unit * self._compliance.growth(pressure)
+        if not np.abs(alone).max() <= _LARGEST:
+            return np.full_like(alone, np.nan)
         modes = self._modes
         rigid = (modes.gaps(position, self._gap.curvature) - self._summits).ravel()
         growth = self._shell.growth if unit and np.isfinite(self._shell.growth).all() else alone
