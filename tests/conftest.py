@@ -7,6 +7,10 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
+# the processes of the tests share the cores: threads of linear algebra would wait for one another
+# (before NumPy is imported; what the processes start has it, too)
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 # the first draw may compile a kernel, so no deadline; derandomised, so that CI is repeatable
 settings.register_profile("loadflow", deadline=None, derandomize=True)
 settings.register_profile("long", deadline=None, max_examples=10_000)

@@ -33,6 +33,7 @@ from loadflow.journal.solvers.transient import (
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.journal.solvers.warm_mean import MeanHeat, mean_heat
 from loadflow.numerics.convergence import Limits
+from loadflow.numerics.one_thread import on_one_thread
 from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ _MOST_AROUND = 240  # cells, of an orbit that stops on fewer
 _TOLERANCE, _STEPS = 1e-10, 60  # of a load that a coarser model leaves to the grid
 
 
+@on_one_thread
 def equilibrium(
     bearing: JournalGeometry, film: Film, force: Array, speed: Array, line: Line, limits: Limits
 ) -> dict[str, Any]:
@@ -53,6 +55,7 @@ def equilibrium(
     return columns_of(equilibrium_rows(bearing, film, force, speed, line, limits))
 
 
+@on_one_thread
 def pressure(
     bearing: JournalGeometry,
     film: Film,
@@ -70,6 +73,7 @@ def pressure(
     return columns_of(rows), z if z[0] < 0 else np.concatenate([-z[::-1], z])
 
 
+@on_one_thread
 def orbit(
     bearing: JournalGeometry,
     film: Film,

@@ -21,6 +21,7 @@ from loadflow.journal.film.surface_film import SurfaceFilm
 from loadflow.journal.solvers.assembly_balance import imbalance
 from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member, MemberState
 from loadflow.numerics.convergence import COARSEST, Limits, is_small
+from loadflow.numerics.one_thread import on_one_thread
 
 Array = NDArray[np.float64]
 
@@ -157,6 +158,7 @@ class Assembly:
         return found
 
     # --- Newton ----------------------------------------------------------------------------------
+    @on_one_thread
     def solve(
         self,
         state: AssemblyState,
