@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.numerics.one_thread import on_one_thread
 from loadflow.rolling.contacts import Array, Contacts, Raceway
 from loadflow.rolling.rings.condensed import Coupling, RingModes
 from loadflow.rolling.rings.flexible import FlexibleRings
@@ -27,6 +28,7 @@ _FALL = 2.0  # harmonic n of the forces is taken to fall as 1/(1 + n)²
 
 
 @lru_cache(maxsize=16)
+@on_one_thread
 def ring_modes(coupling: Coupling, rings: FlexibleRings) -> RingModes:
     """Condense the rings of a bearing to their modes.
 
