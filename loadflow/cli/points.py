@@ -238,6 +238,9 @@ def rolling(
     row_spacing: Annotated[float | None, typer.Option(help="Of neighbouring rows, m.")] = None,
     clearance: Annotated[float | None, typer.Option(help="Axial, < 0 for preload, m.")] = None,
     hardness: Annotated[float | None, typer.Option(help="Of raceways, HV; default 700.")] = None,
+    life_hardness_factor: Annotated[
+        float | None, typer.Option(help="On the dynamic capacity, of soft raceways; default 1.")
+    ] = None,
     inner_ring: Annotated[
         tuple[float, float, float] | None,
         typer.Option(help="Flexible: width, height of its section, radius of the centroid, m."),
@@ -290,6 +293,7 @@ def rolling(
         "row_spacing": row_spacing,
         "clearance": clearance,
         "hardness": hardness,
+        "life_hardness_factor": life_hardness_factor,
     }
     rings, inertia = {"inner_ring": inner_ring, "outer_ring": outer_ring, "wall": wall}, False
     given = {name: value for name, value in (measures | rings).items() if value is not None}

@@ -307,6 +307,7 @@ class Rolling(FurtherBearing):
         groove_radius=0.0205,
         contact_angle=0.7853981633974483,
         hardness=600.0,
+        life_hardness_factor=0.85,
     )
     inner_ring: Ring | None = standing_ring(0.094, 0.12, 0.897, wall=(0.06, 1.0), face="top")
     outer_ring: Ring | None = standing_ring(0.099, 0.12, 1.0005, wall=(0.06, 1.0))

@@ -1,12 +1,15 @@
 """Values of an independent solver for the source's bearings, to all digits that it gave."""
 
 import math
+import warnings
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from loadflow.errors import ValidityWarning
 from loadflow.rolling.rating import life
+from loadflow.scene.scene import Rolling
 from loadflow.validation._slewing_cases import BLADE, DRIVE, FOUR_BALL, MM15, RINGS, SPECTRUM
 from loadflow.validation._slewing_cases import coacting as together
 
@@ -98,3 +101,18 @@ def test_life():
     assert mean / share.sum() * 30 / math.pi == pytest.approx(0.015209, abs=1e-6)
     years = life.rating_life(1_076_000, 2_239_000)
     assert life.life_hours(years, mean) == pytest.approx(122_852, rel=1e-5)
+
+
+def test_soft_raceways_have_the_life_of_hard_ones_only_with_a_warning():
+    soft = replace(BLADE, life_hardness_factor=1.0)
+    with pytest.warns(ValidityWarning, match="life_hardness_factor = 1"):
+        assert soft.rated_capacity == pytest.approx(1_262_832, rel=1e-4)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert BLADE.rated_capacity == pytest.approx(0.85 * soft.rated_capacity)
+        assert replace(soft, hardness=700.0).rated_capacity == soft.rated_capacity
+        assert replace(soft, dynamic_capacity=1e6).rated_capacity == 1e6
+
+
+def test_the_bearing_of_a_scene_that_names_none_is_rated_as_its_source_rates_it():
+    assert Rolling().geometry.rated_capacity == pytest.approx(1_076_000, rel=5e-3)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,7 +12,7 @@ from typing import Annotated, ClassVar, Literal
 import numpy as np
 from annotated_types import Gt, Le
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, ValidityWarning
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.base import TorqueModel
 from loadflow.rolling.bearings.elements import BearingOfBalls
@@ -19,7 +20,7 @@ from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import POINT, Array, Contacts, azimuths
 from loadflow.rolling.friction import FRICTION_FACTORS
 from loadflow.rolling.raceways import BallRaceways
-from loadflow.rolling.rating import capacity, life
+from loadflow.rolling.rating import capacity, life, safety
 from loadflow.rolling.rings.coupling import PointCoupling
 
 DIAGONALS = (1.0, -1.0)  # diagonal 0 carries +Fz on the inner ring, diagonal 1 carries -Fz
@@ -35,7 +36,8 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
     Attributes
     ----------
     life_hardness_factor : float
-        Factor f_H on the dynamic capacity, (4.11); Ritzer uses 0.85 for 55 HRC.
+        Factor f_H on the dynamic capacity, (4.11); Ritzer uses 0.85 for 55 HRC. `hardness` does not
+        set it, as his curve is not at hand: soft raceways with 1 are warned of.
     distance : {"spatial", "meridional"}
         How groove centres move apart. ``"spatial"`` takes the full distance of (2.39), with the
         tangential shift of the rings; ``"meridional"`` takes it within the plane of each ball, as
@@ -83,6 +85,15 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
     @cached_property
     def rated_capacity(self) -> float:
         """Dynamic axial capacity f_H C_a, N: `dynamic_capacity` or (4.8), (4.9), times (4.11)."""
+        soft = safety.hardness_factor(self.hardness) < 1.0
+        if soft and self.life_hardness_factor == 1.0 and self.dynamic_capacity is None:
+            warnings.warn(
+                f"hardness = {self.hardness:g} HV lowers the static rating, while "
+                "life_hardness_factor = 1 leaves the life that of hard raceways; 55 HRC (600 HV) "
+                "has 0.85 [Ritzer 2018]",
+                ValidityWarning,
+                stacklevel=2,
+            )
         value = self.dynamic_capacity or capacity.slewing_capacity(
             balls=self.balls,
             rows=self.rows,
