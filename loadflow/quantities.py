@@ -86,6 +86,17 @@ def fitting_unit(units: str, largest: float) -> tuple[float, str]:
 _LEAST = 0.1
 
 
+def load_cases(count: int) -> str:
+    """Return a number of load cases in words.
+
+    Examples
+    --------
+    >>> load_cases(1), load_cases(66)
+    ('1 load case', '66 load cases')
+    """
+    return f"{count} load case{'s' * (count != 1)}"
+
+
 def percent(share: float, signed: bool = False) -> str:
     """Return a share as a percentage of two digits, written out.
 

@@ -27,7 +27,7 @@ from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
 from loadflow.numerics.fields import none_such
-from loadflow.quantities import percent
+from loadflow.quantities import load_cases, percent
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
 LoadFiles = Annotated[
@@ -201,7 +201,7 @@ def plan(
             str(step["error"] or "not measured"),
         )
     out.print(table)
-    out.print(f"{len(made.cases)} load cases")
+    out.print(load_cases(len(made.cases)))
     _print_errors(made)
     for said in sentences(seeds_wanted(made, tables)):
         out.print(said, soft_wrap=True)
