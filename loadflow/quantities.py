@@ -85,6 +85,31 @@ def fitting_unit(units: str, largest: float) -> tuple[float, str]:
 
 _LEAST = 0.1
 
+
+def load_cases(count: int) -> str:
+    """Return a number of load cases in words.
+
+    Examples
+    --------
+    >>> load_cases(1), load_cases(66)
+    ('1 load case', '66 load cases')
+    """
+    return f"{count} load case{'s' * (count != 1)}"
+
+
+def percent(share: float, signed: bool = False) -> str:
+    """Return a share as a percentage of two digits, written out.
+
+    Examples
+    --------
+    >>> percent(0.0123), percent(1.04), percent(-0.5, signed=True)
+    ('1.2 %', '100 %', '-50 %')
+    """
+    value = float(f"{100.0 * share:.2g}")
+    sign = "+" if signed else ""
+    return f"{value:{sign}.0f} %" if abs(value) >= 100.0 else f"{value:{sign}.2g} %"
+
+
 FILM: dict[str, Quantity] = {
     "force": Quantity("F", "N", "what the shaft applies to the bearing"),
     "film_force": Quantity("−F", "N", "force of the film on the shaft"),

@@ -8,7 +8,7 @@ from synthetic import case
 from loadflow.cube.schema import VARIABLES
 from loadflow.journal import JournalBearing, Lubricant
 from loadflow.journal.pad_results import ThrustResult
-from loadflow.quantities import FILM, ROLLING
+from loadflow.quantities import FILM, ROLLING, percent
 from loadflow.stages import film_summary, friction, rolling
 from loadflow.studies.design_point import NUMBERS
 
@@ -62,3 +62,11 @@ def test_results_and_cubes_carry_units_that_pint_reads():
             assert variable.attrs["long_name"], name
     power = READS.Quantity(float(state.friction_power), FILM["friction_power"].units)
     assert np.isclose(power.to("kW").magnitude, state.friction_power / 1e3)
+
+
+@pytest.mark.parametrize(
+    ("share", "said"),
+    [(0.0123, "1.2 %"), (0.9961, "100 %"), (12.34, "1200 %"), (2e-6, "0.0002 %"), (0.0, "0 %")],
+)
+def test_percentages_are_written_out(share, said):
+    assert percent(share) == said

@@ -200,7 +200,7 @@ def test_contact_in_production_breaks_every_verdict_on_the_film(tmp_path):
     assert "kJ" in contact.note
     for quantity in ("eccentricity ratio ε", "smallest film", "largest Sommerfeld number"):
         assert found[quantity].answer == "broken"
-        assert "in contact in 1 load cases" in found[quantity].note
+        assert "in contact in 1 load case" in found[quantity].note
 
 
 def test_a_start_is_told_with_its_transition_and_has_a_limit_only_if_one_is_stated(tmp_path):

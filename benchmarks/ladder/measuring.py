@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from benchmarks.common import ROOT
+from loadflow.quantities import percent as written_out
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.loads import Loads
@@ -91,7 +92,7 @@ def percent(share: float) -> str:
     """A share in two figures, as plain as they go."""
     if share < 1e-5:
         return f"{share:.0e}" if share else "0"
-    return f"{100 * share:.2g} %"
+    return written_out(share)
 
 
 def sentence(errors: dict[str, dict[str, Any]], *quantities: str) -> str:

@@ -24,6 +24,7 @@ from benchmarks.common import ROOT, arguments, head, put, row
 from benchmarks.ladder.__main__ import DOC, WHOLE_RUNS
 from loadflow.planning.pilot import Effort, pilot
 from loadflow.planning.plan import make_plan
+from loadflow.quantities import percent
 from loadflow.running.runner import run
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.candidates import machine
@@ -246,11 +247,6 @@ def runs() -> Iterator[dict[str, Any]]:
 
 
 # --- the page -------------------------------------------------------------------------------------
-
-
-def percent(value: float) -> str:
-    """Two digits."""
-    return f"{100 * value:.2g} %"
 
 
 def largest(found: dict[str, float]) -> str:

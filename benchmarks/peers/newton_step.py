@@ -21,6 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.results import Equilibrium
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
+from loadflow.quantities import percent
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
 FORCE, SPEED = np.array([2.0586e6, 0.4428e6]), 1.2451
@@ -97,7 +98,7 @@ def main() -> None:
             )
             ratio = spent["point"] / spent["algebra"]
             errors = [
-                f"{100 * off(state, fine, name):.2g} %"
+                percent(off(state, fine, name))
                 for name in ("eccentricity_ratio", "minimum_film", "stiffness", "damping")
             ]
             print(

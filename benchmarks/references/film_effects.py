@@ -30,6 +30,7 @@ from loadflow.journal import (
     Lubricant,
     Turbulence,
 )
+from loadflow.quantities import percent
 from loadflow.tribology import AsperityContact
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -94,7 +95,7 @@ def measure(steps: int) -> None:
         time = (
             f"{seconds / plain:.2g}" if name != "nothing" else f"1 ({1e3 * plain / steps:.2g} ms)"
         )
-        print(row(name, time, *(f"{100 * one:.2g} %" for one in off), f"{100 * share:.2g} %"),
+        print(row(name, time, *(percent(one) for one in off), percent(share)),
               flush=True)  # fmt: skip
 
 

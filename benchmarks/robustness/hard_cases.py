@@ -13,6 +13,7 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments
 from benchmarks.robustness import kept
+from loadflow.quantities import percent
 
 HARD = ROOT / "tests" / "hard"
 sys.path.insert(0, str(HARD))  # the cases are those of the tests
@@ -96,7 +97,7 @@ def _draws() -> Iterator[str]:
     yield "|---|---:|---:|---:|---|"
     for test, row in _stored("draws.json").items():
         name = test.removeprefix("test_").replace("_", " ")
-        refused = f"{100 * row['refused']:.2g} %" if row["refused"] else "none"
+        refused = percent(row["refused"]) if row["refused"] else "none"
         found = FOUND.get(test, "nothing")
         yield f"| {name} | {row['draws']:,} | {refused} | {row['failing']} | {found} |"
 

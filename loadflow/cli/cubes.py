@@ -23,6 +23,7 @@ from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, READING, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
+from loadflow.quantities import load_cases
 
 if TYPE_CHECKING:
     from loadflow.cube import Cube
@@ -96,7 +97,7 @@ def convert(
     if as_json:
         print_json({"path": str(output), "cases": found, "warnings": warnings})
         return
-    out.print(f"{output}: {len(found)} load cases", soft_wrap=True)
+    out.print(f"{output}: {load_cases(len(found))}", soft_wrap=True)
     for warning in warnings:
         out.print(f"warning  {warning}", soft_wrap=True, highlight=False, markup=False)
 

@@ -27,6 +27,7 @@ from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
 from loadflow.numerics.fields import none_such
+from loadflow.quantities import load_cases, percent
 
 SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
 LoadFiles = Annotated[
@@ -200,7 +201,7 @@ def plan(
             str(step["error"] or "not measured"),
         )
     out.print(table)
-    out.print(f"{len(made.cases)} load cases")
+    out.print(load_cases(len(made.cases)))
     _print_errors(made)
     for said in sentences(seeds_wanted(made, tables)):
         out.print(said, soft_wrap=True)
@@ -214,7 +215,7 @@ def plan(
 def _print_errors(made: Any) -> None:
     for result, errors in made.errors.items():
         sizes = (
-            f"{quantity} " + ("not measured" if error is None else f"≤ {100 * error:.2g} %")
+            f"{quantity} " + ("not measured" if error is None else f"≤ {percent(error)}")
             for quantity, error in errors.items()
         )
         if errors:
@@ -243,7 +244,7 @@ def _largest(sizes: Any) -> str:
     if not sizes:
         return "-"
     quantity = max(sizes, key=sizes.get)
-    return f"{quantity} {100 * sizes[quantity]:.2g} %" if sizes[quantity] else "nothing"
+    return f"{quantity} {percent(sizes[quantity])}" if sizes[quantity] else "nothing"
 
 
 @app.command("scene")

@@ -20,7 +20,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
-from loadflow.journal.rows import shaped
+from loadflow.journal.rows import shaped, start_rows, starts_of
 from loadflow.journal.thermal import TOLERANCE, at_temperatures, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
@@ -72,7 +72,7 @@ class JournalBearing(JournalGeometry):
         bend: ArrayLike | None = None,
         whirl: float = 0.0,
         weights: ArrayLike | None = None,
-        warm: ArrayLike | None = None,
+        near: Equilibrium | None = None,
         heat_tolerance: float = TOLERANCE,
         **keywords: Unpack[Keywords],
     ) -> Equilibrium:
@@ -106,9 +106,9 @@ class JournalBearing(JournalGeometry):
             With heat, shares of time of the loads: all then have one temperature, that of their
             mean friction and flow, as in a bearing too slow to follow the load. Without, each load
             has its own.
-        warm : array_like (…), optional
-            With heat and without `weights`, temperatures near those of the balances, K, such as
-            those of a similar bearing; by default they are looked for from that of the inlet on.
+        near : Equilibrium, optional
+            Answer under these loads of a bearing that differs little, such as by its oil: shafts on
+            tilting pads, and with heat temperatures, are looked for from there on.
         heat_tolerance : float
             What may be left of a balance of one temperature, K.
         **keywords
@@ -134,10 +134,9 @@ class JournalBearing(JournalGeometry):
         limits = control.limits(tolerance=1e-10, max_iterations=60)
         loads, speeds, shape = operating_points(force, speed, "force")
         line = Line.of(shape, whirl, moment=moment, tilt=tilt, bend=bend)
-        model = model_of("at_rest", film, self, line)
+        model, starts = model_of("at_rest", film, self, line), starts_of(self, speeds.size, near)
+        line = replace(line, near=starts)
         require(heat_tolerance > 0, "heat_tolerance", heat_tolerance, "> 0")
-        lone = film.heat is None or film.heat.over_area or weights is not None
-        require(warm is None or not lone, "warm", warm, "None without a temperature for each load")
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
@@ -161,10 +160,14 @@ class JournalBearing(JournalGeometry):
             speed: Array,
             places: NDArray[np.int64],
         ) -> dict[str, Any]:
-            return model.equilibrium(grown, cold, force, speed, line.at(places), each)
+            found = model.equilibrium(grown, cold, force, speed, line.at(places), each)
+            if starts is not None:  # a film that is a little warmer is near
+                starts[places] = start_rows(grown, found)
+            return found
 
         share, at_rest = shares(weights, shape), at_temperatures(solve, self, film)
-        start = None if warm is None else np.broadcast_to(np.asarray(warm, float), shape).ravel()
+        known = getattr(near, "temperature", None) if share is None else None
+        start = None if known is None else np.broadcast_to(known, shape).ravel()
         answer = warm_film(
             at_rest, loads, speeds, film, share, heat_tolerance, strict=limits.strict, start=start
         )

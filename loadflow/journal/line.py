@@ -27,12 +27,16 @@ class Line:
     whirl : float
         Frequency at which it vibrates, rad/s: tilting pads are condensed out of stiffness and
         damping at it.
+    near : array (n, 2 + pads) or None
+        Where shafts on tilting pads are looked for first: eccentricity, clearances, and rotation of
+        the pads over ψ; NaN where nothing is known.
     """
 
     moment: Array | None = None
     tilt: Array | None = None
     bend: Array | None = None
     whirl: float = 0.0
+    near: Array | None = None
 
     @classmethod
     def of(cls, shape: tuple[int, ...], whirl: float = 0.0, **given: ArrayLike | None) -> Line:
@@ -51,10 +55,16 @@ class Line:
 
     def at(self, places: NDArray[np.int64]) -> Line:
         """The same for the loads at `places` (m,) alone."""
-        moment, tilt, bend = (
-            None if rows is None else rows[places] for rows in (self.moment, self.tilt, self.bend)
+        moment, tilt, bend, near = (
+            None if rows is None else rows[places]
+            for rows in (self.moment, self.tilt, self.bend, self.near)
         )
-        return Line(moment, tilt, bend, self.whirl)
+        return Line(moment, tilt, bend, self.whirl, near)
+
+    def start(self, index: int) -> Array | None:
+        """Where the shaft under load number `index` is looked for first, if that is known."""
+        known = self.near is not None and bool(np.isfinite(self.near[index]).all())
+        return self.near[index] if known and self.near is not None else None
 
     @property
     def straight(self) -> bool:

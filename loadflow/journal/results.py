@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.grid_bounds import BOUNDED, FieldError, GridError, resolved
 from loadflow.numerics.shown import Shown
-from loadflow.quantities import FILM, GRID_ERROR, Quantity
+from loadflow.quantities import FILM, GRID_ERROR, Quantity, percent
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -183,7 +183,7 @@ class FilmState(Shown):
         if self.relative_grid_error is None:
             return ""
         bound = self.relative_grid_error[..., BOUNDED.index(name)]
-        return f" ± {100 * np.ravel(bound)[case]:.2g} %" if np.any(bound) else ""
+        return f" ± {percent(np.ravel(bound)[case])}" if np.any(bound) else ""
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.cell_error import relative_errors
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -77,6 +78,36 @@ def operating_columns(
         "laminar": reynolds < critical,
         "shell_deformation": np.zeros(np.shape(speed)),
     }
+
+
+def starts_of(bearing: JournalGeometry, count: int, near: Any = None) -> Array | None:
+    """Where shafts on tilting pads are looked for first, `Line.near`; None on other bores.
+
+    Parameters
+    ----------
+    bearing : JournalGeometry
+        The bearing.
+    count : int
+        Number of loads.
+    near : Equilibrium, optional
+        Answer of a similar bearing under these loads.
+    """
+    pads = len(Bore.of(bearing).pads)
+    if not pads:
+        return None
+    starts = np.full((count, 2 + pads), np.nan)
+    if near is not None:
+        rows = {name: getattr(near, name) for name in ("eccentricity", "pad_tilt")}
+        starts[:] = start_rows(
+            bearing, {name: values.reshape(count, -1) for name, values in rows.items()}
+        )
+    return starts
+
+
+def start_rows(bearing: JournalGeometry, found: dict[str, Any]) -> Array:
+    """Rows of `Line.near` that answers (n, …) give; NaN where there is none."""
+    shaft, pads = found["eccentricity"] / bearing.clearance, found["pad_tilt"]
+    return np.column_stack([shaft, pads / bearing.relative_clearance])
 
 
 def answered_rows(found: NDArray[np.bool_], columns: dict[str, Any]) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.planning.accuracy import contributions
 from loadflow.planning.effects import Estimates
+from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
 from loadflow.studies.run_lifetime import known_shares
@@ -239,5 +240,5 @@ def more_seeds(found: Iterable[Answer], allowed: Callable[[str], float]) -> str:
             worst[one.quantity] = max(worst.get(one.quantity, 0.0), one.by_seeds)
     if not worst:
         return ""
-    told = ", ".join(f"{name} (±{100 * share:.2g} %)" for name, share in worst.items())
+    told = ", ".join(f"{name} (±{percent(share)})" for name, share in worst.items())
     return f"More seeds would tell more than better models of: {told}."

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from loadflow.data import seed_scatter
 from loadflow.planning.plan import Plan
+from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups
@@ -78,7 +79,7 @@ class SeedsWanted:
         """Interval, seeds and time."""
         seeds = "1 seed" if self.seeds == 1 else f"{self.seeds} seeds"
         time = "" if self.seconds is None else f" ({self.seconds:.0f} s)"
-        return f"{self.answer} ±{100 * self.interval:.2g} %, {seeds}{time}"
+        return f"{self.answer} ±{percent(self.interval)}, {seeds}{time}"
 
 
 def seeds_wanted(
@@ -212,7 +213,7 @@ def sentences(found: Iterable[SeedsWanted]) -> list[str]:
     if not every:
         return []
     whose = "its own seeds" if every[0].measured else "the seeds of the main job, roughly"
-    limits = " or ".join(dict.fromkeys(f"±{100 * one.wanted:.2g} %" for one in every))
+    limits = " or ".join(dict.fromkeys(f"±{percent(one.wanted)}" for one in every))
     told = "; ".join(one.sentence for one in every)
     said = [
         f"interval of each answer by seeds, and seeds of each wind speed for {limits} (processor "

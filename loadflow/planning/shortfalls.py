@@ -5,6 +5,7 @@ from __future__ import annotations
 from loadflow.planning.accuracy import Part, contributions
 from loadflow.planning.choice import Choice
 from loadflow.planning.ladder import choices
+from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving, models
 
@@ -45,16 +46,16 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
             worst = max(over, key=over.__getitem__)
             parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
             most = max(parts, key=lambda part: part.share or 0.0)
-            sizes = ", ".join(f"{q} by up to {100 * e:.2g} %" for q, e in over.items())
+            sizes = ", ".join(f"{q} by up to {percent(e)}" for q, e in over.items())
             said.append(
                 f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
-                f"({100 * (most.share or 0.0):.2g} %): {_in_words(wanted, choice, most)}"
+                f"({percent(most.share or 0.0)}): {_in_words(wanted, choice, most)}"
             )
     return said
 
 
 def _asked(wanted: Scene, allowed: float) -> str:
-    return f"asked for {100 * allowed:.2g} %" if allowed < float("inf") else "nothing asked"
+    return f"asked for {percent(allowed)}" if allowed < float("inf") else "nothing asked"
 
 
 def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:

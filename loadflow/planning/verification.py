@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import READ, Difference, compare
@@ -64,7 +65,7 @@ def warnings(tree: xr.DataTree) -> list[str]:
         stage, quantity = str(row["stage"].item()), str(row["quantity"].item())
         worst.setdefault(
             (stage, quantity),
-            f"{quantity} moves by {100 * row['difference'].item():.2g} % with "
+            f"{quantity} moves by {percent(row['difference'].item())} with "
             f"{row['against'].item()} ({row['case'].item()})",
         )
     return [f"{stage}: {text}" for (stage, _), text in worst.items()]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from loadflow.quantities import HOURS_PER_YEAR
+from loadflow.quantities import HOURS_PER_YEAR, percent
 from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
@@ -84,7 +84,7 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
         return Cell("")
     if number["value"] is None:
         return Cell("–", where=number["note"])
-    error = "" if number["error"] is None else f"± {100 * number['error']:.2g} % by models"
+    error = "" if number["error"] is None else f"± {percent(number['error'])} by models"
     seeds = "" if number["low"] is None else _by_seeds(number)
     sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
@@ -179,5 +179,5 @@ def _extremes(
 
 
 def _check(check: Mapping[str, Any]) -> dict[str, str]:
-    change = "no answer" if check["change"] is None else f"{100 * check['change']:.2g} %"
+    change = "no answer" if check["change"] is None else f"{percent(check['change'])}"
     return {**{key: str(check[key]) for key in ("stage", "quantity", "against")}, "change": change}

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.planning.budget import Answer
-from loadflow.quantities import fitting_unit
+from loadflow.quantities import fitting_unit, percent
 from loadflow.report import Table
 from loadflow.studies.tolerances import Band
 
@@ -43,16 +43,14 @@ def answer_row(one: Answer, banded: bool = False) -> list[str]:
     factor, unit = (1e6, "µm") if one.unit == "m" else fitting_unit(one.unit, size)
     low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
     unit = "" if unit == "–" else f" {unit}"
-    missing = ", ".join(
-        f"{name} {100 * share:.2g} %" for name, share in (one.left_out or {}).items()
-    )
+    missing = ", ".join(f"{name} {percent(share)}" for name, share in (one.left_out or {}).items())
     return [
         one.quantity,
         f"{one.result.partition('.')[0]} {one.bearing}",  # as verdicts name it
         value + unit,
         "one seed" if np.isnan(one.low) else f"{low} … {high}{unit}",
         *([_band(one.band, factor, ends, unit)] if banded else []),
-        "not measured" if one.error is None else f"≤ {100 * one.error:.2g} %",
+        "not measured" if one.error is None else f"≤ {percent(one.error)}",
         one.governed_by,
         missing or "-",
     ]
@@ -72,7 +70,7 @@ def _tolerances(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         return
     data = tables["tolerances"]
     text = [data[name].values.tolist() for name in ("bearing", "key", "quantity", "case")]
-    ends = [[f"{100 * x:+.2g} %" for x in data[end].values] for end in ("low", "high")]
+    ends = [[f"{percent(x, signed=True)}" for x in data[end].values] for end in ("low", "high")]
     heads = ["bearing", "value", "answer", "load case", "at the lower end", "at the upper end"]
     yield Table("Tolerances", heads, [list(row) for row in zip(*text, *ends)])
 

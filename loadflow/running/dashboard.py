@@ -18,6 +18,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.plots.journal import film_series, orbit
 from loadflow.plots.style import envelope, figure, readable
+from loadflow.quantities import load_cases
 from loadflow.running.folder import answered, open_part, read_manifest
 from loadflow.studies.channels import channel, channel_names
 from loadflow.verdict import from_dataset
@@ -150,7 +151,7 @@ def application(folder: str | Path) -> Callable[[], Any]:
     def page() -> Any:
         case = pn.widgets.Select(name="load case", options=view.cases)
         channels = pn.widgets.Select(name="channel", options=view.channels())
-        head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{len(view.cases)} load cases")
+        head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{load_cases(len(view.cases))}")
         rooms = [
             (
                 "Verdicts",

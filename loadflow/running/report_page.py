@@ -18,7 +18,7 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import fitting_unit
+from loadflow.quantities import fitting_unit, percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
@@ -404,7 +404,7 @@ def _check_section(check: xr.Dataset) -> Section:
     rows = [
         [
             *(str(check[name].values[k]) for name in ("stage", "quantity", "case", "against")),
-            f"{100 * check['difference'].values[k]:.2g} %",
+            f"{percent(check['difference'].values[k])}",
         ]
         for k in range(check.sizes["check"])
     ]

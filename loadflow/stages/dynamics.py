@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.journal import coefficient_table, rotor_coefficients
+from loadflow.quantities import load_cases
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
@@ -225,7 +226,7 @@ def warnings(tree: xr.DataTree) -> list[str]:
     if not names:
         return []
     return [
-        f"dynamics: the shaft line is unstable in its films in {len(names)} load cases, "
+        f"dynamics: the shaft line is unstable in its films in {load_cases(len(names))}, "
         f"{names[0]} among them: its whirl grows until the film stops it"
     ]
 

@@ -93,18 +93,19 @@ def equilibria(
     options: Journal,
     force: np.ndarray,
     speed: np.ndarray,
-    warm: np.ndarray | None = None,
+    near: Equilibrium | None = None,
+    /,
     **line: np.ndarray,
 ) -> Equilibrium:
     """Solve the film of a scene's bearing for `force` (n, 3) in the cube's frame, N.
 
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
-    1/m, it lies as they say; without, it stays aligned. From temperatures `warm` (n,), K, of films
-    that are much the same, heat balances are solved to `NEARLY_WARM`.
+    1/m, it lies as they say; without, it stays aligned. From films `near` of a bearing
+    that differs little, heat balances are solved to `NEARLY_WARM`.
     """
     lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
-    if warm is not None:
-        lying |= {"warm": warm, "heat_tolerance": NEARLY_WARM}
+    if near is not None:
+        lying |= {"near": near, "heat_tolerance": NEARLY_WARM}
     with unresolved_counted():  # `film_summary` counts them
         return options.geometry.equilibrium(
             to_film(force), speed, options.film_model, strict=False, **lying

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.journal.grid_bounds import UNRESOLVED
-from loadflow.quantities import GRID_ERROR
+from loadflow.quantities import GRID_ERROR, percent
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
 from loadflow.stages.running_time import counted, time_shares
@@ -154,7 +154,7 @@ def warnings(tree: xr.DataTree) -> list[str]:
         said.append(
             f"journal, bearing {bearing}: the cells do not resolve the film in {int(here.sum())} "
             f"of {here.size} load cases; the smallest film of {table['case'].values[worst]} is "
-            f"known to {100 * float(off[worst]):.2g} %; a finer journal.grid resolves it"
+            f"known to {percent(float(off[worst]))}; a finer journal.grid resolves it"
         )
     return said
 

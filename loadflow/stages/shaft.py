@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
@@ -140,7 +141,7 @@ def warnings(tree: xr.DataTree) -> list[str]:
     error, said = worst["interpolation_error"].item(), []
     if error > WARN:
         said.append(
-            f"shaft: between the samples solved, loads or tilt are off by {100 * error:.2g} % of "
+            f"shaft: between the samples solved, loads or tilt are off by {percent(error)} of "
             f"their largest ({worst['case'].item()})"
         )
     if rigid := int(found["not_converged"].sum()):

@@ -2,7 +2,7 @@
 
 A tolerance moves an answer by a share. Which sample has the thinnest film or the largest pressure
 is known from the bearings as stated, and means follow from the few that last longest, so that only
-those are solved at the ends, their heat balances from the temperatures as stated.
+those are solved at the ends, their heat balances and pads from those as stated.
 """
 
 from __future__ import annotations
@@ -63,11 +63,6 @@ class Films:
         """Samples whose film is held to the limit: the rotor runs."""
         return _judged(self.samples, self.answer)
 
-    @property
-    def temperature(self) -> Floats | None:
-        """K, of each sample, where there is a heat balance of one temperature."""
-        return getattr(self.answer, "temperature", None) if _one_temperature(self.options) else None
-
 
 @dataclass(frozen=True)
 class Deciding:
@@ -91,19 +86,18 @@ class Deciding:
         ):
             kept = {name: getattr(known, name) for name in ("answer", "thin", "hard", "heavier")}
             return Films(options, some, **kept)
-        return films_of(options, some, known.temperature)
+        return films_of(options, some, known)
 
 
-def films_of(options: Journal, samples: xr.Dataset, warm: Floats | None = None) -> Films:
-    """Films of a bearing; from temperatures `warm`, K, that are near those of its balances."""
-    answer = _at(options, samples, 1.0, warm)
+def films_of(options: Journal, samples: xr.Dataset, near: Films | None = None) -> Films:
+    """Films of a bearing, from those of one that differs little if they are given."""
+    answer = _at(options, samples, 1.0, None if near is None else near.answer)
     judged = _judged(samples, answer)
     thin = int(np.argmin(np.where(judged, answer.minimum_film, np.inf)))
     hard = int(np.argmax(np.where(answer.converged, answer.maximum_pressure, 0.0)))
-    found = Films(options, samples, answer, thin, hard, answer)
-    near = None if found.temperature is None else found.temperature[[thin, hard]]
-    heavier = _at(options, samples.isel(sample=[thin, hard]), HEAVIER, near)
-    return replace(found, heavier=heavier)
+    two = np.array([thin, hard])
+    heavier = _at(options, samples.isel(sample=two), HEAVIER, _rows(answer, two))
+    return Films(options, samples, answer, thin, hard, heavier)
 
 
 def films_at(
@@ -156,27 +150,27 @@ def _nearest(samples: xr.Dataset, some: NDArray[np.int64]) -> NDArray[np.int64]:
 
 
 def _rows(answer: Equilibrium, places: NDArray[np.int64]) -> Any:
-    """Some rows of an answer."""
-    fields = {
-        name: value[places] if isinstance(value, np.ndarray) and value.ndim else value
+    """Some rows of an answer; what all rows share stays."""
+    count = answer.converged.size
+    rows = {
+        name: value[places]
         for name, value in vars(answer).items()
+        if isinstance(value, np.ndarray) and value.shape[:1] == (count,)
     }
-    return type(answer)(**fields)
+    return replace(answer, **rows)
 
 
-def _at(options: Journal, samples: xr.Dataset, factor: float, warm: Floats | None) -> Equilibrium:
+def _at(
+    options: Journal, samples: xr.Dataset, factor: float, near: Equilibrium | None
+) -> Equilibrium:
     """Films under samples of a spectrum with a factor on the loads."""
     force = factor * samples["force"].transpose("sample", "axis").values
     line = shaft_line(options, samples)
-    return equilibria(options, force, samples["speed"].values, warm, **line)
+    return equilibria(options, force, samples["speed"].values, near, **line)
 
 
 def _judged(samples: xr.Dataset, answer: Equilibrium) -> NDArray[np.bool_]:
     return np.asarray(answer.converged & samples["running"].values.astype(bool))
-
-
-def _one_temperature(options: Journal) -> bool:
-    return options.heat is not None and not options.heat.over_area
 
 
 def _alike(one: xr.Dataset, other: xr.Dataset) -> bool:

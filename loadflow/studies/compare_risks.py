@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
+from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.scene.wear import check_wear
 from loadflow.stages.film_summary import STANDING
@@ -139,7 +140,7 @@ def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> N
     return Number(
         100 * ratio * limit, "%", low, high,
         limit=100 * limit, holds=ratio >= 1, case=case, time=time,
-        place=place, note=f"of C; below the limit in {100 * light / total:.2g} % of the samples",
+        place=place, note=f"of C; below the limit in {percent(light / total)} of the samples",
     )  # fmt: skip
 
 

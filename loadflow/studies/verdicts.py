@@ -8,6 +8,7 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import load_cases
 from loadflow.rolling.rating.static import (
     HOURS_20_YEARS,
     LIFE_SOURCE,
@@ -172,7 +173,7 @@ def _contact(
 def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict]:
     """ε, smallest film and So in power production; a contact breaks all of them."""
     limits, contact = options.limits, table["in_contact"] > 0
-    touching = f"in contact in {int(contact.sum())} load cases" if contact.any() else ""
+    touching = f"in contact in {load_cases(int(contact.sum()))}" if contact.any() else ""
     ratio = table.assign(largest_eccentricity_ratio=_where(table, "largest_eccentricity_ratio", 1))
     value, case, time = _worst(ratio, "largest_eccentricity_ratio", "most")
     critical = options.critical_eccentricity_ratio
@@ -320,7 +321,7 @@ def _of_pads(part: AnyAxial, name: str, table: xr.Dataset) -> Iterator[Verdict]:
     production = _production(own)
     if production.sizes["case"]:
         touching = production["in_contact"] > 0
-        note = f"in contact in {int(touching.sum())} load cases" if touching.any() else ""
+        note = f"in contact in {load_cases(int(touching.sum()))}" if touching.any() else ""
         yield _thinnest(part, subject, production, note, "thrust")
     yield from _pressure(part.limits, subject, own, "thrust")
     value, case, time = _worst(own, "largest_axial_load", "most")
@@ -402,7 +403,7 @@ def _lives(
             continue
         note, value = "no load case has a share of the lifetime", np.nan
         if lifetime is not None:
-            note = f"over {table.sizes['case']} load cases by their share of the lifetime"
+            note = f"over {load_cases(table.sizes['case'])} by their share of the lifetime"
             if name is None:
                 value = float(lifetime[f"system_{kind}life_hours"])
             else:

@@ -12,10 +12,12 @@ from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
+from loadflow.studies.band_films import deciding_of, films_of
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import Number
+from loadflow.studies.design_point import fast_journal
 from loadflow.studies.deviations import Built, tolerances_of
-from loadflow.studies.tolerance_bands import _as_share, _banded, cheap_numbers
+from loadflow.studies.tolerance_bands import Known, _as_share, _banded, cheap_numbers
 from loadflow.studies.wear_bands import Rubbing
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
@@ -231,3 +233,29 @@ def test_tolerances_of_values_count_in_place_of_those_assumed():
     assert all(end.candidate.journal.at("N2").geometry.relative_clearance == 1e-3
                for end in first.ends)  # fmt: skip
     assert [one.name for one in others] == ["oil grade", "oil temperature", "roughness"]
+
+
+def test_samples_that_decide_move_numbers_as_all_samples_do():
+    heat = {"oil": "mineral-vg-320", "inlet_temperature": 318.0}
+    stated = built(journal={"bearings": ["N", "N2"], "geometry": MEASURES, "heat": heat})
+    oil = only(stated, viscosity=0.1)
+    known, deciding = Known().of(stated)
+    whole = cheap_numbers(stated)
+    for end in oil.ends:
+        full, few = cheap_numbers(end), cheap_numbers(end, deciding)
+        for name in ("minimum_film", "film_pressure", "load_factor", "friction"):
+            moved = full[name] / whole[name]
+            assert few[name] / known[name] == pytest.approx(moved, abs=3e-3), name
+
+
+def test_of_samples_the_hardest_and_those_that_last_are_kept():
+    stated = journal()
+    wider = xr.concat([stated.spectrum["N"].to_dataset()] * 4, "sample", data_vars="minimal")
+    weight = np.r_[0.3, np.full(15, 0.7 / 15)]
+    films = films_of(
+        fast_journal(stated.candidate.journal.at("N")), wider.assign(weight=("sample", weight))
+    )
+    kept = deciding_of(films)
+    assert {films.thin, films.hard, 0} <= set(kept.places.tolist())
+    assert kept.places.size < 8
+    assert kept.weight.sum() == pytest.approx(1.0)

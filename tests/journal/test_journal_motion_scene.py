@@ -5,6 +5,7 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.quantities import percent
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import journal as stage
@@ -94,7 +95,7 @@ def test_a_run_tells_of_paths_that_its_cells_do_not_resolve(grid):
         assert share >= 0.25
         assert len(said) == 1
         assert "bearing N: the cells do not resolve the film in 1 of 1 load cases" in said[0]
-        assert f"is known to {100 * share:.2g} %" in said[0]
+        assert f"is known to {percent(share)}" in said[0]
 
 
 def test_the_plan_may_have_tilt_and_motion_together():

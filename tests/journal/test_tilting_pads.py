@@ -2,10 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from loadflow.journal import Film, GasMixture, Guembel, JournalBearing, Lubricant, TiltingPads
+from loadflow.journal import (
+    Film,
+    GasMixture,
+    Guembel,
+    Heat,
+    JournalBearing,
+    Lubricant,
+    TiltingPads,
+)
 from loadflow.journal.film.pad_curve import pad_curve
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.pad_estimate import on_pads
@@ -97,3 +107,27 @@ def test_turned_bearing_and_reversed_speed_give_the_mirrored_answer() -> None:
     first, second = mirrored
     assert first.maximum_pressure == pytest.approx(float(second.maximum_pressure), rel=1e-8)
     assert first.friction_power == pytest.approx(float(second.friction_power), rel=1e-8)
+
+
+def test_a_film_from_a_near_one_is_the_same_in_fewer_steps() -> None:
+    """Warm oil that is a tenth thicker, under a shaft so tilted that pads are sought one by one."""
+    bearing = JournalBearing(2.0, 1.3, 0.7e-3, shape=TiltingPads(4, 1.3, preload=0.35, angle=0.785))
+    given = {"tilt": [[1.5e-4, 0.0]], "edge_pressure": 1e5, "grid": (60, 10)}
+    warm = Heat(inlet_temperature=318.0)
+    thicker = replace(warm, oil=warm.liquid.scaled(1.1))
+    load = ([[2.2e6, 0.3e6]], 1.3)
+    stated = bearing.equilibrium(*load, heat=warm, **given)
+    afresh = bearing.equilibrium(*load, heat=thicker, **given)
+    near = bearing.equilibrium(*load, heat=thicker, near=stated, **given)
+    assert near.iterations.sum() <= afresh.iterations.sum()
+    assert near.heat_iterations.sum() < afresh.heat_iterations.sum()
+    np.testing.assert_allclose(near.minimum_film, afresh.minimum_film, rtol=1e-6)
+    np.testing.assert_allclose(near.temperature, afresh.temperature, atol=1e-5)
+
+
+def test_a_start_without_room_is_left_for_the_usual_one() -> None:
+    load = ([[4e6, 0.0]], SPEED)
+    stated = BEARING.equilibrium(*load, FILM)
+    far = replace(stated, eccentricity=stated.eccentricity + 5 * BEARING.clearance)
+    found = BEARING.equilibrium(*load, FILM, near=far)
+    np.testing.assert_allclose(found.eccentricity, stated.eccentricity, rtol=1e-9)

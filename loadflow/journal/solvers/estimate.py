@@ -59,6 +59,7 @@ def first_position(
     load: Array,
     held: Array,
     free: slice | NDArray[np.int64],
+    near: Array | None = None,
 ) -> Array:
     """Where Newton starts: the closed form of the cylinder, shrunk to what the bore leaves.
 
@@ -72,12 +73,18 @@ def first_position(
         Centred position with what is given of the shaft.
     free : slice or array of int
         Degrees of freedom of the shaft that move.
+    near : array (2 + pads,), optional
+        Shaft and pads of a similar film, from which it starts if they have room.
 
     Raises
     ------
     loadflow.errors.SolverError
         The shaft touches the bore wherever it is.
     """
+    if near is not None:
+        start = np.concatenate([near[:2], held[2 : gap.shaft], near[2:]])
+        if gap.narrowest(start) > 0.0:
+            return start
     if gap.pads.size:
         afloat = on_pads(film, cast("ShapedGap", gap), load)
         if afloat is not None:

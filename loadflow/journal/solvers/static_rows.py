@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -42,6 +43,10 @@ def equilibrium_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         used, solution = statics.resolve(index, load, omega, last, control)
+        if not solution.converged and line.start(index) is not None:
+            afresh = Statics(bearing, options, replace(line, near=None), statics.rate)
+            afresh.film.raise_scale(statics.film.scale)
+            used, solution = afresh.resolve(index, load, omega, None, control)
         if not solution.converged and control.strict:
             raise SolverError(f"load {index}: {used.message(solution, load)}")
         last = solution if solution.converged and used is statics else last

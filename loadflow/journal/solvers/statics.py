@@ -198,7 +198,8 @@ class Statics:
         carries = self._carries(force)
         if not carries and force.any():
             return no_film(film)
-        estimate = first_position(self.bearing, film, gap, load, self._held(index), self.shaft)
+        near, of_shaft = self.line.start(index), (self._held(index), self.shaft)
+        estimate = first_position(self.bearing, film, gap, load, *of_shaft, near)
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
