@@ -46,8 +46,9 @@ def _resistance(h, w, rough, regime):
     else:
         s, along, _, slip, yields = rough
         h, opens = opened(h, yields)
-        flow, rise = conductance(h, s, along)
-        drag, drag_rise = dragged(h, s, along, slip)
+        mean, share = mean_film(h, s)
+        flow, rise = conductance(h, s, mean, share, along)
+        drag, drag_rise = dragged(h, s, mean, share, along, slip)
     if regime is not None:
         flow, rise = _slowed(flow, rise, h, regime, ALONG)
     w3 = w / flow
@@ -82,8 +83,8 @@ def _cell_terms(h, w, rough, regime):
     else:
         s, along, across, _, yields = rough
         h, opens = opened(h, yields)
-        flow, rise = conductance(h, s, across)
         mean, share = mean_film(h, s)
+        flow, rise = conductance(h, s, mean, share, across)
         share *= opens
         inverse = sheared(h, s, along)
     if regime is not None:

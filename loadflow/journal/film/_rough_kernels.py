@@ -61,12 +61,11 @@ def mean_film(h, s):
 
 
 @njit(cache=True, nogil=True)
-def conductance(h, s, rows):
-    """φ h³, or ⟨h_T⟩³ without `rows`, and its derivative.
+def conductance(h, s, mean, share, rows):
+    """φ h³, or ⟨h_T⟩³ without `rows`, and its derivative; mean gap and its derivative are given.
 
     φ was found at H > 0.5 … 1: below 1 it multiplies ⟨h_T⟩³, to which it is joined there.
     """
-    mean, share = mean_film(h, s)
     if rows.shape[0] == 0:
         return mean**3, 3.0 * mean**2 * share
     parameter = h / s
@@ -79,9 +78,8 @@ def conductance(h, s, rows):
 
 
 @njit(cache=True, nogil=True)
-def dragged(h, s, rows, slip):
-    """Gap that the shaft drags full, ⟨h_T⟩ + slip σ Φ_s, and its derivative."""
-    mean, share = mean_film(h, s)
+def dragged(h, s, mean, share, rows, slip):
+    """Gap that the shaft drags full, ⟨h_T⟩ + slip σ Φ_s, and its derivative; as `conductance`."""
     if rows.shape[0] == 0 or slip == 0.0:
         return mean, share
     factor, rise = laws.shear_factor(h / s, rows, True)

@@ -131,10 +131,10 @@ def _rough_gap(film, work):
                 opens = 1.0
                 if yielding.on:
                     h, opens = opened(yielding, h)
-                gap[MEAN, i, k], gap[OPEN, i, k] = mean_film(h, s)
-                gap[CUBE, i, k], work.gap_slope[i, k] = conductance(h, s, rough.across)
-                gap[OPEN, i, k] *= opens
-                work.gap_slope[i, k] *= opens
+                mean, share = mean_film(h, s)
+                flow, rise = conductance(h, s, mean, share, rough.across)
+                gap[MEAN, i, k], gap[OPEN, i, k] = mean, share * opens
+                gap[CUBE, i, k], work.gap_slope[i, k] = flow, rise * opens
         for k in range(m):
             h = face[FACE_PLANES, i, k]
             if h > far:
@@ -144,10 +144,11 @@ def _rough_gap(film, work):
                 opens = 1.0
                 if yielding.on:
                     h, opens = opened(yielding, h)
-                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = conductance(h, s, rough.along)
-                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = dragged(h, s, rough.along, rough.slip)
-                face[FLOW_SLOPE, i, k] *= opens
-                face[DRAG_SLOPE, i, k] *= opens
+                mean, share = mean_film(h, s)
+                flow, rise = conductance(h, s, mean, share, rough.along)
+                face[FLOW, i, k], face[FLOW_SLOPE, i, k] = flow, rise * opens
+                drag, rise = dragged(h, s, mean, share, rough.along, rough.slip)
+                face[DRAG, i, k], face[DRAG_SLOPE, i, k] = drag, rise * opens
 
 
 @inner
@@ -203,13 +204,14 @@ def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
 
 @inner
 def touch(film, work, q):
-    """Load of the asperities and its derivative by the position into `work.touch`; ∫ p_a, N."""
+    """Load of the asperities and its derivative into `work.touch`, ∫ p_a into `work.normal`."""
     work.touch[:] = 0.0
     normal, rough = 0.0, film.rough
     if rough.size == 0.0:
-        return normal
+        return
     if film.yielding.on:
-        return _touch_shell(film, work, q)
+        work.normal[0] = _touch_shell(film, work, q)
+        return
     last = rough.table.shape[1] - 2
     load, stiffness = work.touch[0], work.touch[1:]
     for g in range(rough.z.size):
@@ -247,12 +249,12 @@ def touch(film, work, q):
     for a in range(4):
         for b in range(a):
             stiffness[a, b] = stiffness[b, a]
-    return normal
+    work.normal[0] = normal
 
 
 @once
 def _touch_shell(film, work, q):
-    """`touch` on a shell that film and asperities press open, or on segments of a shaped bore.
+    """∫ p_a and `work.touch` on a shell that is pressed open, or on segments of a shaped bore.
 
     Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
     `work.pressed`, too.

@@ -26,7 +26,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     narrowest,
     opened,
     smooth_beyond,
-    touch,
 )
 from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
@@ -303,7 +302,10 @@ def _carry_touch(film, work, size):
 
 @inner
 def summarise(film, work, q, wedge, row):
-    """Integrals over the film into `row`, after `balance` at `q`; units of `_reduced_kernels`."""
+    """Integrals over the film into `row`, after `balance` and `touch` at `q`.
+
+    Units are those of `_reduced_kernels`.
+    """
     nx, wide = work.u.shape
     lanes, ring, nodes, m = film.lanes, film.ring, film.nodes, film.nodes.slopes.shape[1]
     p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
@@ -382,7 +384,7 @@ def summarise(film, work, q, wedge, row):
     row[film_.FILLED] = liquid / volume
     row[film_.LEAST] = narrowest(film, work)
     row[film_.GROWTH] = max(grown, film.give * (peak - ring.p_edge))
-    row[film_.NORMAL] = touch(film, work, q)
+    row[film_.NORMAL] = work.normal[0]
     row[film_.MOMENT_X] = work.load[2] + work.touch[0, 2]
     row[film_.MOMENT_Y] = work.load[3] + work.touch[0, 3]
     row[film_.CONTACT_X] = work.touch[0, 0]

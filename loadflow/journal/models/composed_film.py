@@ -272,6 +272,8 @@ class ComposedWork(NamedTuple):
         Load that the film carries, N, its moments over the shaft radius.
     touch : array (5, 4)
         The same of the asperities, then its derivatives by the position.
+    normal : array (1,)
+        ∫ of their pressure, N.
     carried : array (5, 4)
         Load that each of the columns carries.
     system : array (4, 5)
@@ -310,6 +312,7 @@ class ComposedWork(NamedTuple):
     bend: Array
     load: Array
     touch: Array
+    normal: Array
     carried: Array
     system: Array
     pressed: Array
@@ -343,6 +346,7 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         bend=np.zeros(2),
         load=np.zeros(4),
         touch=np.zeros((5, 4)),
+        normal=np.zeros(1),
         carried=np.zeros((5, 4)),
         system=np.zeros((4, 5)),
         pressed=np.zeros((4, around, inner)),
