@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
+from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
@@ -91,8 +93,17 @@ def starts_of(bearing: JournalGeometry, count: int, near: Any = None) -> Array |
         Number of loads.
     near : Equilibrium, optional
         Answer of a similar bearing under these loads.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        `near` is of other loads, or of another number of pads.
     """
     pads = len(Bore.of(bearing).pads)
+    if near is not None:
+        known = math.prod(near.eccentricity.shape[:-1]), near.pad_tilt.shape[-1]
+        got, allowed = ("{} load(s) on {} pads".format(*two) for two in (known, (count, pads)))
+        require(known == (count, pads), "near", got, allowed)
     if not pads:
         return None
     starts = np.full((count, 2 + pads), np.nan)

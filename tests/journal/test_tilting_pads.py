@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from loadflow.errors import InputError
 from loadflow.journal import (
     Film,
     GasMixture,
@@ -131,3 +132,12 @@ def test_a_start_without_room_is_left_for_the_usual_one() -> None:
     far = replace(stated, eccentricity=stated.eccentricity + 5 * BEARING.clearance)
     found = BEARING.equilibrium(*load, FILM, near=far)
     np.testing.assert_allclose(found.eccentricity, stated.eccentricity, rtol=1e-9)
+
+
+def test_a_near_film_of_other_loads_or_pads_is_refused() -> None:
+    stated = BEARING.equilibrium([[4e6, 0.0]], SPEED, FILM)
+    with pytest.raises(InputError, match=r"near = '1 load\(s\) .* is not allowed: 2 load\(s\)"):
+        BEARING.equilibrium([[4e6, 0.0], [3e6, 0.0]], SPEED, FILM, near=stated)
+    plain = JournalBearing(1.4, 1.3, 1e-3)
+    with pytest.raises(InputError, match=r"is not allowed: 1 load\(s\) on 0 pads"):
+        plain.equilibrium([[4e5, 0.0]], SPEED, FILM, near=stated)
