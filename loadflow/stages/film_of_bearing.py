@@ -20,7 +20,7 @@ from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
-NEARLY_WARM = 0.05  # K: moves a film by less than 0.3 %, beside another bearing's that is asked
+NEARLY_WARM = 0.01  # K: moves a film by less than 0.1 %, beside another bearing's that is asked
 _IN_MOTION = Control(tolerance=1e-6)  # 1e-8 moves films by 4e-5 at most, for an eighth more time
 
 
