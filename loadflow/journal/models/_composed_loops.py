@@ -21,13 +21,13 @@ from loadflow.journal.models._composed_gap_kernels import (
     touch,
     turn,
 )
+from loadflow.journal.models._composed_integrals import summarise
 from loadflow.journal.models._composed_kernels import (
     balance,
     carry,
     magnitudes,
     matrix,
     slopes_of_balance,
-    summarise,
 )
 from loadflow.journal.models._reduced_loops import (
     COARSEST,

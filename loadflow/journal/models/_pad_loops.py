@@ -13,13 +13,12 @@ from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import has_gap, turn
+from loadflow.journal.models._composed_integrals import fed, summarise
 from loadflow.journal.models._composed_kernels import (
     balance,
-    fed,
     magnitudes,
     matrix,
     slopes_of_balance,
-    summarise,
 )
 from loadflow.journal.models._composed_loops import keep, lay_at, solve_system
 from loadflow.journal.models._pad_kernels import (
