@@ -21,7 +21,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     touch,
     turn,
 )
-from loadflow.journal.models._composed_integrals import summarise
 from loadflow.journal.models._composed_kernels import (
     balance,
     carry,
@@ -29,6 +28,7 @@ from loadflow.journal.models._composed_kernels import (
     matrix,
     slopes_of_balance,
 )
+from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
     LATE,
@@ -432,5 +432,5 @@ def solve(
             return n + 1
         if slopes.shape[1] > 0:
             _finish(film, work, q, omega, slopes.shape[1], slopes[0], slopes[1])
-        summarise(film, work, q, 0.5 * film.ring.slope * omega, rows[n])
+        summarise(film, work, q, 0.5 * film.ring.slope * omega, thin * rate, rows[n])
     return time.size

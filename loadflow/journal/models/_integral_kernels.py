@@ -15,6 +15,7 @@ from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
     DRAG,
+    FACE_PLANES,
     FLOW,
     MEAN,
     PLANES,
@@ -27,7 +28,7 @@ from loadflow.numerics.lanes import LANES, larger, put, spread, take
 
 
 @inner
-def summarise(film, work, q, wedge, row):
+def summarise(film, work, q, wedge, rate, row):
     """Integrals over the film into `row`, after `balance` at `q`; units of `_reduced_kernels`.
 
     Slopes across are those of the smooth pressure that a law may cut off to carry nothing: a
@@ -39,11 +40,10 @@ def summarise(film, work, q, wedge, row):
     mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
     plain = film.rough.size == 0.0 and not (film.yielding.on or film.regime.on or film.held.on)
     for at in range(0, wide, LANES):
-        lost, sheared_at, leaves = spread(0.0), spread(0.0), spread(0.0)
+        lost, sheared_at = spread(0.0), spread(0.0)
         liquid_at, volume_at = spread(0.0), spread(0.0)
         weights, own = take(lanes.whole, at), take(lanes.weights, at)
-        outward = take(lanes.outward, at)
-        ends = outward * outward * ring.edge_fill
+        ends = take(lanes.ends, at) * ring.edge_fill
         for i in range(nx):
             here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
             step, slope = ring.width[i], take(work.slope, here)
@@ -53,7 +53,6 @@ def summarise(film, work, q, wedge, row):
             lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
             if ring.groove[i] and ring.shaped:  # in a supply's there is oil
                 continue
-            leaves = leaves + larger(spread(0.0), outward * flow * -1.0)
             held = weights * take(mean, here) * step
             liquid_at = liquid_at + held * (take(fill, here) * take(lanes.inner, at) + ends)
             volume_at = volume_at + held
@@ -61,14 +60,12 @@ def summarise(film, work, q, wedge, row):
                 sheared_at = sheared_at + weights / take(planes, here) * step
         put(rows, at, lost)
         put(rows, wide + at, sheared_at)
-        put(rows, 2 * wide + at, leaves)
-        put(rows, 3 * wide + at, liquid_at)
-        put(rows, 4 * wide + at, volume_at)
-    dissipation, shear, outflow, liquid, volume = -_cut_off(film, work), 0.0, 0.0, 0.0, 0.0
+        put(rows, 2 * wide + at, liquid_at)
+        put(rows, 3 * wide + at, volume_at)
+    dissipation, shear, liquid, volume = -_cut_off(film, work), 0.0, 0.0, 0.0
     for k in range(nodes.z.size):
         dissipation, shear = dissipation + rows[0, k], shear + rows[1, k]
-        outflow, liquid = outflow + rows[2, k], liquid + rows[3, k]
-        volume += rows[4, k]
+        liquid, volume = liquid + rows[2, k], volume + rows[3, k]
     grown = 0.0
     if not plain:
         shear, grown = _uneven(film, work)
@@ -99,7 +96,7 @@ def summarise(film, work, q, wedge, row):
     row[film_.PEAK] = peak
     row[film_.DISSIPATION] = dissipation
     row[film_.SHEAR] = shear
-    row[film_.OUTFLOW] = outflow
+    row[film_.OUTFLOW] = _outflow(film, work, wedge, rate)
     row[film_.FILLED] = liquid / volume
     row[film_.LEAST] = narrowest(film, work)
     row[film_.GROWTH] = max(grown, film.give * (peak - ring.p_edge))
@@ -115,6 +112,32 @@ def summarise(film, work, q, wedge, row):
     row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
     for j in range(work.fed.size):
         row[film_.RESULTS + j] = work.fed[j]
+
+
+@once
+def _outflow(film, work, wedge, rate):
+    """Flow out over the bearing ends, where it is not drawn in there.
+
+    It is what the balance of a column leaves for its end: the slope of the polynomial there is far
+    off where the pressure reaches the end with a bend.
+    """
+    ring, nodes, total = film.ring, film.nodes, 0.0
+    first, cube = nodes.z.size - nodes.ends.size, work.gap[CUBE]
+    for e in range(nodes.ends.size):
+        drawn = nodes.weights[first + e] * ring.edge_fill * wedge
+        for i in range(ring.cos.size):
+            before = i - 1 if i > 0 else ring.cos.size - 1
+            if ring.groove[i] or work.slope[i, first + e] == 0.0:  # the latter beside a pad let go
+                continue
+            along = work.face[FACE_PLANES, i, first + e] - work.face[FACE_PLANES, before, first + e]
+            held = rate * work.state[FILL, i, first + e] * work.gap[MEAN, i, first + e]
+            held = (held - work.liquid[0, i, first + e]) * ring.slope * ring.width[i]
+            flow = drawn * along + nodes.weights[first + e] * held
+            for k in range(nodes.z.size):
+                slope = nodes.weights[k] * cube[i, k] * work.slope[i, k]
+                flow += slope * nodes.end_slopes[k, e] * ring.width[i]
+            total -= min(flow, 0.0)
+    return total
 
 
 @inner
