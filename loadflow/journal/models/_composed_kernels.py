@@ -10,9 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, DSLACK, FILL, LOAD, SLACK, P
-from loadflow.journal.film._rough_kernels import sheared
-from loadflow.journal.film._turbulence_kernels import SHEAR, factor
-from loadflow.journal.models import composed_film as film_
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
@@ -22,10 +19,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     FLOW_SLOPE,
     MEAN,
     OPEN,
-    PLANES,
     narrowest,
-    opened,
-    smooth_beyond,
 )
 from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
@@ -298,153 +292,3 @@ def _carry_touch(film, work, size):
                 change = slope * work.columns[column, i, k]
                 for a in range(size):
                     work.carried[column, a] += work.pressed[a, i, k] * change
-
-
-@inner
-def summarise(film, work, q, wedge, row):
-    """Integrals over the film into `row`, after `balance` and `touch` at `q`.
-
-    Units are those of `_reduced_kernels`.
-    """
-    nx, wide = work.u.shape
-    lanes, ring, nodes, m = film.lanes, film.ring, film.nodes, film.nodes.slopes.shape[1]
-    p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
-    mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
-    plain = film.rough.size == 0.0 and not (film.yielding.on or film.regime.on or film.held.on)
-    for at in range(0, wide, LANES):
-        lost, sheared_at, leaves = spread(0.0), spread(0.0), spread(0.0)
-        liquid_at, volume_at = spread(0.0), spread(0.0)
-        weights, own = take(lanes.whole, at), take(lanes.weights, at)
-        outward = take(lanes.outward, at)
-        ends = outward * outward * ring.edge_fill
-        for i in range(nx):
-            here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
-            step, pressure, slope = ring.width[i], p[i], spread(0.0)
-            across = 0.0 if ring.groove[i] else step
-            for j in range(m):
-                slope = slope + take(lanes.slopes, j * wide + at) * (pressure[j] - ring.p_edge)
-            flow, rise = take(cube, here) * slope * across, take(p, right) - take(p, here)
-            lost = lost + weights * flow * slope
-            lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
-            if ring.groove[i] and ring.shaped:  # in a supply's there is oil
-                continue
-            leaves = leaves + larger(spread(0.0), outward * flow * -1.0)
-            held = weights * take(mean, here) * step
-            liquid_at = liquid_at + held * (take(fill, here) * take(lanes.inner, at) + ends)
-            volume_at = volume_at + held
-            if plain:
-                sheared_at = sheared_at + weights / take(planes, here) * step
-        put(rows, at, lost)
-        put(rows, wide + at, sheared_at)
-        put(rows, 2 * wide + at, leaves)
-        put(rows, 3 * wide + at, liquid_at)
-        put(rows, 4 * wide + at, volume_at)
-    dissipation, shear, outflow, liquid, volume = 0.0, 0.0, 0.0, 0.0, 0.0
-    for k in range(nodes.z.size):
-        dissipation, shear = dissipation + rows[0, k], shear + rows[1, k]
-        outflow, liquid = outflow + rows[2, k], liquid + rows[3, k]
-        volume += rows[4, k]
-    grown = 0.0
-    if not plain:
-        shear, grown = _uneven(film, work)
-    peak, highest = -np.inf, 0
-    for i in range(nx):
-        for k in range(m):
-            if p[i, k] > peak:
-                peak, highest = p[i, k], i
-    between = spread(peak)
-    for i in range(highest - 1, highest + 2):  # between the points
-        for at in range(0, lanes.fine.shape[1], LANES):
-            value = spread(ring.p_edge)
-            for j in range(m):
-                share = take(lanes.fine, j * lanes.fine.shape[1] + at)
-                value = value + share * (p[i % nx, j] - ring.p_edge)
-            between = larger(between, value)
-    put(rows, 0, between)
-    for k in range(LANES):
-        peak = max(peak, rows[0, k])
-    left = 0.0
-    for n in range(nodes.highest.shape[0]):
-        value = 0.0
-        for j in range(m):
-            value += nodes.highest[n, j] * (p[highest, j] - ring.p_edge)
-        left = max(left, abs(value))
-    beyond = 0.0
-    for n in range(nodes.beyond.shape[0]):
-        value = 0.0
-        for j in range(m):
-            value += nodes.beyond[n, j] * (p[highest, j] - ring.p_edge)
-        beyond += abs(value)
-    for k in range(4):
-        row[k] = q[k]
-    row[film_.PEAK] = peak
-    row[film_.DISSIPATION] = dissipation
-    row[film_.SHEAR] = shear
-    row[film_.OUTFLOW] = outflow
-    row[film_.FILLED] = liquid / volume
-    row[film_.LEAST] = narrowest(film, work)
-    row[film_.GROWTH] = max(grown, film.give * (peak - ring.p_edge))
-    row[film_.NORMAL] = work.normal[0]
-    row[film_.MOMENT_X] = work.load[2] + work.touch[0, 2]
-    row[film_.MOMENT_Y] = work.load[3] + work.touch[0, 3]
-    row[film_.CONTACT_X] = work.touch[0, 0]
-    row[film_.CONTACT_Y] = work.touch[0, 1]
-    mean_pressure = np.hypot(work.load[0] + work.touch[0, 0], work.load[1] + work.touch[0, 1])
-    mean_pressure /= 2.0 * ring.area * nodes.width
-    # beside asperities a film may carry next to nothing
-    pressed = max(peak - ring.p_edge, mean_pressure, 1e-3 * ring.scale)
-    row[film_.HIGHEST], row[film_.BEYOND] = left / pressed, beyond / pressed
-    row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
-    for j in range(work.fed.size):
-        row[film_.RESULTS + j] = work.fed[j]
-
-
-@once
-def _uneven(film, work):
-    """Shear between rough surfaces, of turbulent flow or beside grooves, and growth of the gap."""
-    points, m, rough = film.nodes.z.size, film.nodes.slopes.shape[1], film.rough
-    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
-    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
-    shear, grown = 0.0, 0.0
-    for i in range(film.ring.cos.size):
-        if film.ring.groove[i]:
-            continue
-        for k in range(points):
-            h = work.gap[PLANES, i, k]
-            if film.yielding.on:
-                h = opened(film.yielding, h)[0]
-                if k < m:
-                    lifted = h - work.gap[PLANES, i, k]
-                    pressed = work.state[LOAD, i, k] - film.ring.p_edge
-                    grown = max(grown, film.give * pressed + lifted)
-            inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
-            if film.regime.on:
-                inverse *= factor(h, numbers, SHEAR)[0]
-            if film.held.on and k < m:
-                inverse *= film.held.drags[i, k]
-            shear += film.nodes.weights[k] * film.ring.width[i] * inverse
-    return shear, grown
-
-
-@once
-def fed(film, work, wedge):
-    """Flow from the grooves into the film, less what flows back, after `place`."""
-    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
-    weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face
-    total = 0.0
-    for i in range(nx):
-        right = i + 1 if i + 1 < nx else 0
-        if film.ring.groove[i] == film.ring.groove[right]:
-            continue
-        upwind = i if wedge > 0 else right
-        flow = 0.0
-        for k in range(m):
-            rise = (p[right, k] - p[i, k]) / film.ring.apart[i]
-            drag = wedge * fill[upwind, k] * face[DRAG, i, k]
-            flow += weights[k] * (drag - face[FLOW, i, k] * rise)
-        for k in range(m, film.nodes.z.size):  # the ends, at the pressure of the grooves
-            gap = film.ring.base_face[i] - work.centre[0, k] * film.ring.cos_face[i]
-            gap -= work.centre[1, k] * film.ring.sin_face[i]
-            flow += weights[k] * wedge * film.ring.edge_fill * gap
-        total += flow if film.ring.groove[i] else -flow
-    return total

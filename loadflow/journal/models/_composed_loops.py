@@ -27,8 +27,8 @@ from loadflow.journal.models._composed_kernels import (
     magnitudes,
     matrix,
     slopes_of_balance,
-    summarise,
 )
+from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
     LATE,
@@ -433,5 +433,5 @@ def solve(
             return n + 1
         if slopes.shape[1] > 0:
             _finish(film, work, q, omega, slopes.shape[1], slopes[0], slopes[1])
-        summarise(film, work, q, 0.5 * film.ring.slope * omega, rows[n])
+        summarise(film, work, q, 0.5 * film.ring.slope * omega, thin * rate, rows[n])
     return time.size

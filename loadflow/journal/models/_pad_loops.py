@@ -15,13 +15,12 @@ from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import has_gap, turn
 from loadflow.journal.models._composed_kernels import (
     balance,
-    fed,
     magnitudes,
     matrix,
     slopes_of_balance,
-    summarise,
 )
 from loadflow.journal.models._composed_loops import keep, lay_at, solve_system
+from loadflow.journal.models._integral_kernels import fed, summarise
 from loadflow.journal.models._pad_kernels import (
     BEFORE,
     LAST,
@@ -291,11 +290,11 @@ def _other_pads(work, pads, pad_work, q, reached, speed):
 
 
 @once
-def _summed(film, work, pads, pad_work, q, wedge, row):
+def _summed(film, work, pads, pad_work, q, wedge, rate, row):
     """`summarise`, with the drag on pads without a film, but not what these drag along."""
     for i in range(pads.cell.size):
         film.ring.groove[i] = pads.groove[i]
-    summarise(film, work, q, wedge, row)
+    summarise(film, work, q, wedge, rate, row)
     hold_pads(film, pads, pad_work)
     row[at.FED] = fed(film, work, wedge)
 
@@ -371,7 +370,8 @@ def solve_on_pads(
                 work.past[4] = step
                 share, other = min(2.0 * share, 1.0), False
                 if done >= 1.0:
-                    _summed(film, work, pads, pad_work, q, 0.5 * film.ring.slope * omega, rows[n])
+                    wedge = 0.5 * film.ring.slope * omega
+                    _summed(film, work, pads, pad_work, q, wedge, thin * rate, rows[n])
                     for j in range(count):
                         tilts[n, j] = own[LAST, j]
                 changed = False

@@ -233,8 +233,11 @@ def carried(film, work):
 
 
 @inner
-def summarise(film, work, x, y, wedge, row):
-    """Integrals over the half film into `row`, after `place` at (x, y); units of this module."""
+def summarise(film, work, x, y, vx, vy, wedge, row):
+    """Integrals over the half film into `row`, after `place` at (x, y); units of this module.
+
+    The shaft moves at (vx, vy), clearances per second.
+    """
     nx, m = work.u.shape[0], len(film.lanes)
     axial = film.axial
     p = work.state[LOAD]
@@ -246,11 +249,10 @@ def summarise(film, work, x, y, wedge, row):
         step = film.ring.width[i]
         h3 = step * h * h * h
         g = work.gap_face[i] ** 3 / film.ring.apart[i]
-        middle, leak, inside = 0.0, 0.0, film.ring.edge_fill * axial.end_weight
+        middle, leaves, inside = 0.0, 0.0, film.ring.edge_fill * axial.end_weight
         for k in range(m):
             q = p[i, k] - film.ring.p_edge
             middle += axial.middle[k] * q
-            leak += axial.leak[k] * q
             inside += axial.weights[k] * work.state[FILL, i, k]
             dissipation += g * axial.weights[k] * (p[right, k] - p[i, k]) ** 2
             peak = max(peak, p[i, k])
@@ -261,9 +263,16 @@ def summarise(film, work, x, y, wedge, row):
         for k in range(m):
             q = p[i, k] - film.ring.p_edge
             for j in range(m):
-                dissipation += h3 * q * axial.stiffness[k, j] * (p[i, j] - film.ring.p_edge)
+                flow = h3 * axial.stiffness[k, j] * (p[i, j] - film.ring.p_edge)
+                dissipation += q * flow
+                leaves += flow
         peak = max(peak, middle + film.ring.p_edge)
-        outflow += max(h3 * leak, 0.0)
+        # what the balance leaves for the end: the slope there is far off where p has a bend nearby
+        before = work.gap_face[i - 1 if i > 0 else nx - 1]
+        closes = film.ring.slope * step * (vx * film.ring.cos[i] + vy * film.ring.sin[i])
+        at_end = axial.end_weight * film.ring.edge_fill
+        leaves -= at_end * (wedge * (work.gap_face[i] - before) - closes)
+        outflow += max(leaves, 0.0)
         shear += step * half_width / h
     row[X] = x
     row[Y] = y

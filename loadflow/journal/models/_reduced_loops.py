@@ -166,7 +166,7 @@ def finish(film, work, x, y, speed, row, stiffness, damping):
     nx, m = work.u.shape
     place(film, work, x, y)
     wedge = 0.5 * film.ring.slope * speed
-    summarise(film, work, x, y, wedge, row)
+    summarise(film, work, x, y, 0.0, 0.0, wedge, row)
     balance(film, work, wedge, 0.0)
     matrix(film, work, wedge, 0.0)
     if film.ring.shaped:
@@ -250,7 +250,9 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
     place(film, work, x, y)
     keep(work)
     x_before, y_before = x, y
-    summarise(film, work, x, y, 0.5 * film.ring.slope * states[0, THIN] * speed[0], rows[0])
+    wedge = 0.5 * film.ring.slope * states[0, THIN] * speed[0]
+    summarise(film, work, x, y, 0.0, 0.0, wedge, rows[0])
+    vx, vy = 0.0, 0.0
     step_before, thin = 0.0, 1.0
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]
@@ -284,6 +286,8 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
             spent += iterations
             if converged:
                 keep(work)
+                vx = rate * x_new - weight * x - weight_before * x_before
+                vy = rate * y_new - weight * y - weight_before * y_before
                 x_before, y_before, x, y = x, y, x_new, y_new
                 step_before = step
                 done = at
@@ -299,5 +303,6 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
         if not converged:
             rows[n, X], rows[n, Y] = x_new, y_new
             return n + 1
-        summarise(film, work, x, y, 0.5 * film.ring.slope * thin * speed[n], rows[n])
+        wedge = 0.5 * film.ring.slope * thin * speed[n]
+        summarise(film, work, x, y, thin * vx, thin * vy, wedge, rows[n])
     return time.size

@@ -61,8 +61,8 @@ class Lanes(NamedTuple):
         The same of one point by the values at all.
     pairs : array (l, m, L)
         Products of two of these slopes at each point, times its weight.
-    whole, outward : array (L,)
-        Weights of all points; sense of the outward direction at the bearing ends, 0 elsewhere.
+    whole, ends : array (L,)
+        Weights of all points; 1 at the bearing ends.
     fine : array (m, F)
         Values at places close by each other, by that at one point.
     """
@@ -75,7 +75,7 @@ class Lanes(NamedTuple):
     shares: Array
     pairs: Array
     whole: Array
-    outward: Array
+    ends: Array
     fine: Array
 
 
@@ -89,11 +89,11 @@ def lanes_of(nodes: Nodes, depth: Array) -> Lanes:
         return given
 
     pairs = nodes.weights[:, None, None] * nodes.slopes[:, :, None] * nodes.slopes[:, None, :]
-    outward = np.concatenate([np.zeros(points - nodes.ends.size), nodes.ends])
+    ends = np.concatenate([np.zeros(points - nodes.ends.size), np.ones(nodes.ends.size)])
     return Lanes(
         z=rows(nodes.z), depth=rows(depth[:points]), weights=rows(nodes.weights[:inner]),
         inner=rows(np.ones(inner)), slopes=rows(nodes.slopes.T), shares=rows(nodes.slopes),
-        pairs=rows(pairs), whole=rows(nodes.weights), outward=rows(outward),
+        pairs=rows(pairs), whole=rows(nodes.weights), ends=rows(ends),
         fine=rows(nodes.fine.T, len(nodes.fine)),
     )  # fmt: skip
 

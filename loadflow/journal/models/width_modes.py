@@ -25,8 +25,6 @@ class Axial(NamedTuple):
         ∫ q dz = weights · q.
     stiffness : array (m, m)
         ∫ (∂q)² dz = q · stiffness · q; also the axial outflow of each point in the balance.
-    leak : array (m,)
-        −∂p at the bearing end is leak · q.
     middle : array (m,)
         q at mid-plane is middle · q.
     end_weight : float
@@ -38,7 +36,6 @@ class Axial(NamedTuple):
     points: Array
     weights: Array
     stiffness: Array
-    leak: Array
     middle: Array
     end_weight: float
     width: float
@@ -70,7 +67,6 @@ def lobatto(half_width: float, nodes: int) -> Axial:
         points=half_width * zeta,
         weights=half_width * weights,
         stiffness=0.5 * (stiffness + stiffness.T) / half_width,
-        leak=2.0 * from_values.sum(axis=0) / half_width,
         middle=from_values[0].copy(),
         end_weight=half_width * end,
         width=half_width * float(weights.sum()),
@@ -93,6 +89,8 @@ class Nodes(NamedTuple):
         ∫ f dz = weights · f.
     slopes : array (l, m)
         ∂q at all points from its values.
+    end_slopes : array (l, e)
+        The same of a polynomial that is 1 at one end, which no pressure is.
     ends : array (e,)
         Sense of the outward direction at each end: −1 or 1.
     fine : array (f, m)
@@ -110,6 +108,7 @@ class Nodes(NamedTuple):
     z: Array
     weights: Array
     slopes: Array
+    end_slopes: Array
     ends: Array
     fine: Array
     highest: Array
@@ -138,6 +137,7 @@ def whole_width(half_width: float, points: int, few: int | None = None) -> Nodes
         z=half_width * zeta[order],
         weights=half_width * weights[order],
         slopes=np.ascontiguousarray(slopes[np.ix_(order, inner)] / half_width),
+        end_slopes=np.ascontiguousarray(slopes[np.ix_(order, ends)] / half_width),
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
         highest=shares[-2:],
@@ -163,6 +163,7 @@ def half_width_nodes(half_width: float, points: int, few: int | None = None) -> 
         z=half_width * zeta[order],
         weights=half_width * weights[order],
         slopes=np.ascontiguousarray(even[order] / half_width),
+        end_slopes=(slopes[order, -1:] + slopes[order, :1]) / half_width,
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
         highest=shares[-1:],
@@ -232,9 +233,12 @@ def stretched_width(
     unknown = np.arange(1, count - 1) if whole else np.flatnonzero(z > 0.0)[:-1]
     ends = np.array([0, count - 1] if whole else [count - 1])
 
-    def of_unknown(rows: Array) -> Array:
-        even = rows[:, unknown] if whole else rows[:, unknown] + rows[:, count - 1 - unknown]
+    def at_points(rows: Array, points: NDArray[np.int64]) -> Array:
+        even = rows[:, points] if whole else rows[:, points] + rows[:, count - 1 - points]
         return np.ascontiguousarray(even)
+
+    def of_unknown(rows: Array) -> Array:
+        return at_points(rows, unknown)
 
     order = np.concatenate([unknown, bends[shown], ends])
     all_weights = np.concatenate([own[unknown], np.array(weight)[shown], own[ends]])
@@ -244,6 +248,7 @@ def stretched_width(
         z=half_width * z[order],
         weights=half_width * all_weights,
         slopes=of_unknown(rows) / half_width,
+        end_slopes=at_points(rows, ends) / half_width,
         ends=np.array([-1.0, 1.0] if whole else [1.0]),
         fine=of_unknown(fine),
         highest=of_unknown(np.array(highest if whole else highest[len(marks) :])),
