@@ -96,6 +96,7 @@ VALUES = {
         "balls": ["50"], "ball_diameter": ["0.059"], "pitch_diameter": ["2.1"],
         "groove_radius": ["0.032"], "contact_angle_deg": ["40"], "rows": ["2"],
         "row_spacing": ["0.1"], "clearance": ["1e-5"], "hardness": ["600"],
+        "life_hardness_factor": ["0.85"],
         "inner_ring": ["0.1", "0.15", "0.9"], "outer_ring": ["0.1", "0.16", "1.1"],
         "wall": ["0.05", "0.5"], "scene": ["SCENE"], "bearing": ["N2"], "force_x": ["2e5"],
         "force_y": ["1e5"], "force_z": ["1.1e6"], "moment_x": ["1e5"], "moment_y": ["9e5"],
