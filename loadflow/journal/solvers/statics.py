@@ -422,6 +422,10 @@ class Statics:
     ) -> Solution:
         """Equilibrium where Newton finds none at once."""
         film, free = self.film, self._free(pads)
+        if film.elastic and film.contact is not None:
+            by_shell = solve_by_stiffness(film, force, estimate, limits[0], free)
+            if by_shell.converged:
+                return by_shell
         if film.elastic:
             by_load = solve_in_load_steps(film, force, estimate, limits[0], free)
             if by_load.converged or film.clearance_left(by_load.position) <= APART:
