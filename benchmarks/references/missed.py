@@ -2,9 +2,9 @@
 
 python -m benchmarks.references.missed [--folder CLONES] [PART …]
 
-Parts: grooves, slip, stages, blade, crank, rig, momentum, rupture. Each prints the rows of a source
-and ours with the cause that the row names, or without it. `--folder` (clones as OWNER/NAME) adds
-the IEA 10 and 22 MW to the part momentum.
+Parts: grooves, slip, models, stages, blade, crank, rig, momentum, rupture. Each prints the rows of
+a source and ours with the cause that the row names, or without it. `--folder` (clones as
+OWNER/NAME) adds the IEA 10 and 22 MW to the part momentum.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 from loadflow.rolling import FlexibleRings, RingBeam, RingSection, Support
+from loadflow.rolling.friction import drag_constants
 from loadflow.validation import _friction_motion as motion
 from loadflow.validation import film_heat, friction_rig, stribeck, supply
 from loadflow.validation._slewing_cases import BLADE, SPECTRUM
@@ -62,6 +63,23 @@ def slip() -> None:
         loads = (motion.reversing_load(rpm, turns) for rpm in speeds)
         found = [100 * motion.drained_model()(load).maximum_slip for load in loads]
         print(f"films, drained pockets, {turns:g} reversals a turn: {_told(found, '.1f')}")
+
+
+def models() -> None:
+    """Mean error of the slip against the measured one, Tables 8.5 and 8.6 (±2 kN), by the model."""
+    flooded = drag_constants(MAIN, motion.AT_60, 9 / 22)
+    for name, model in (
+        ("stage 1, pockets as drawn", motion.coulomb_model(MAIN, motion.AT_60, "geometric")),
+        ("films, pockets as drawn", motion.film_model(motion.AT_60, flooded, "moes")),
+        ("films, drained pockets", motion.drained_model()),
+    ):
+        rest = [100 * model(motion.static_load(n, f)).maximum_slip for n, f, *_ in motion.STATIC]
+        moved = [100 * model(motion.reversing_load(n)).maximum_slip for n, *_ in motion.REVERSING]
+        off = (
+            np.abs(np.array(found) - [row[-3] for row in rows]).mean()
+            for found, rows in ((rest, motion.STATIC), (moved, motion.REVERSING))
+        )
+        print(f"{name}: {_told(off, '.1f')} points")
 
 
 def stages() -> None:
@@ -250,6 +268,7 @@ def _told(values: Any, form: str) -> str:
 PARTS = {
     "grooves": grooves,
     "slip": slip,
+    "models": models,
     "stages": stages,
     "blade": blade,
     "crank": crank,
