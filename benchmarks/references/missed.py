@@ -2,9 +2,9 @@
 
 python -m benchmarks.references.missed [--folder CLONES] [PART …]
 
-Parts: grooves, slip, crank, rig, momentum, rupture. Each prints the rows of a source and ours with
-the cause that the row names, or without it. `--folder` (clones as OWNER/NAME) adds the IEA 10 and
-22 MW to the part momentum.
+Parts: grooves, slip, models, stages, blade, crank, rig, momentum, rupture. Each prints the rows of
+a source and ours with the cause that the row names, or without it. `--folder` (clones as
+OWNER/NAME) adds the IEA 10 and 22 MW to the part momentum.
 """
 
 from __future__ import annotations
@@ -24,8 +24,11 @@ from loadflow.journal.film.energy_equation import EnergyEquation
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
+from loadflow.rolling import FlexibleRings, RingBeam, RingSection, Support
+from loadflow.rolling.friction import drag_constants
 from loadflow.validation import _friction_motion as motion
 from loadflow.validation import film_heat, friction_rig, stribeck, supply
+from loadflow.validation._slewing_cases import BLADE, SPECTRUM
 from loadflow.validation.friction import MAIN
 from loadflow.validation.turbines import TURBINES, completed, published_states
 
@@ -55,6 +58,60 @@ def slip() -> None:
         for turns in (0.5, 1.0, 2.0):
             found = [100 * model(motion.reversing_load(rpm, turns)).maximum_slip for rpm in speeds]
             print(f"{1e3 * viscosity:g} mPa s, {turns:g} reversals a turn: {_told(found, '.1f')}")
+    print("the same beside measured", [row[1] for row in motion.REVERSING])
+    for turns in (1.0, 2.0):
+        loads = (motion.reversing_load(rpm, turns) for rpm in speeds)
+        found = [100 * motion.drained_model()(load).maximum_slip for load in loads]
+        print(f"films, drained pockets, {turns:g} reversals a turn: {_told(found, '.1f')}")
+
+
+def models() -> None:
+    """Mean error of the slip against the measured one, Tables 8.5 and 8.6 (±2 kN), by the model."""
+    flooded = drag_constants(MAIN, motion.AT_60, 9 / 22)
+    for name, model in (
+        ("stage 1, pockets as drawn", motion.coulomb_model(MAIN, motion.AT_60, "geometric")),
+        ("films, pockets as drawn", motion.film_model(motion.AT_60, flooded, "moes")),
+        ("films, drained pockets", motion.drained_model()),
+    ):
+        rest = [100 * model(motion.static_load(n, f)).maximum_slip for n, f, *_ in motion.STATIC]
+        moved = [100 * model(motion.reversing_load(n)).maximum_slip for n, *_ in motion.REVERSING]
+        off = (
+            np.abs(np.array(found) - [row[-3] for row in rows]).mean()
+            for found, rows in ((rest, motion.STATIC), (moved, motion.REVERSING))
+        )
+        print(f"{name}: {_told(off, '.1f')} points")
+
+
+def stages() -> None:
+    """Torque of stage 2 over that of stage 1, with and without what slip loses."""
+    rig = friction_rig.CrankRig(seal_force=0.0)
+    for rpm in (1000.0, 3000.0):
+        coulomb, films = (rig.friction_torque(rpm, stage) for stage in ("coulomb", "film"))
+        slip = sum(value for name, value in films.torques.items() if name.endswith("slip"))
+        shares = films.torque / coulomb.torque, (films.torque - slip) / coulomb.torque
+        print(f"{rpm:g} 1/min: {_told(shares, '.3f')}")
+
+
+def blade() -> None:
+    """Largest ball force and P_ea of the blade bearing over the print, by clearance and rings."""
+    bearing, loads = replace(BLADE, row_spacing=0.06), SPECTRUM[:, :3].T
+    section, half = RingSection.rectangle(0.1, 0.15), 0.5 * BLADE.pitch_diameter
+    springs = {"radial": 1e11, "tangential": 1e11, "axial": 1e11, "tilt": 1e7}
+
+    def ring(radius: float, foot: float) -> RingBeam:
+        support = Support(radius=radius, height=foot, **springs)
+        return RingBeam(section=section, radius=radius, harmonics=16, supports=(support,))
+
+    even = FlexibleRings(outer=ring(half + 0.07, -0.075), inner=ring(half - 0.07, 0.075))
+    zero = np.zeros(len(SPECTRUM))
+    force, moment = np.stack([loads[0], zero, loads[1]], -1), np.stack([zero, -loads[2]], -1)
+    for name, found in (
+        ("rigid rings", bearing.equilibrium(force, moment)),
+        ("0.05 mm", replace(bearing, clearance=5e-5).equilibrium(force, moment)),
+        ("even rings on springs", bearing.equilibrium(force, moment, rings=even)),
+    ):
+        print(f"F_k,max, {name}: {_told(found.maximum_force / SPECTRUM[:, 3], '.3f')}")
+        print(f"P_ea, {name}: {_told(found.equivalent_load / SPECTRUM[:, 4], '.3f')}")
 
 
 def crank() -> None:
@@ -211,6 +268,9 @@ def _told(values: Any, form: str) -> str:
 PARTS = {
     "grooves": grooves,
     "slip": slip,
+    "models": models,
+    "stages": stages,
+    "blade": blade,
     "crank": crank,
     "rig": rig,
     "momentum": momentum,

@@ -9,7 +9,7 @@ loads can be computed, for the others no loads are given. Nothing is fitted to t
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -37,6 +37,10 @@ FITTED = 37.06e-3  # Pa s, to the first row of Table 8.5
 _FREQUENCY = (
     "no frequency from half to twice a turn meets the rows with one oil; each alone is met by one "
     "of 26 … 33 mPa s, 4 K warmer or cooler than the one that meets 500 and 1000/min"
+)
+_OFTENER = (
+    "the load is taken to reverse once a turn, its frequency is not given: twice a turn lowers the "
+    "slip by a fifth to two fifths from 1000/min on and meets three of the five rows"
 )
 AT_60 = 26.3e-3  # Pa s, the source's oil at 60 °C, the upper end of the tests
 
@@ -112,7 +116,7 @@ def checks(gaps: RollerGaps) -> Iterator[Check]:
     """Yield all rows, for the gaps of Table 8.2."""
     yield from _stage_one(gaps)
     yield from _stage_two(gaps)
-    yield from _beyond(gaps)
+    yield from _measured()
     yield from _cage()
 
 
@@ -164,42 +168,30 @@ def _stage_two(gaps: RollerGaps) -> Iterator[Check]:
         yield Check(name, "Table 8.5", printed, got, 2.0, "absolute", "%")
 
 
-def errors(model: Model) -> tuple[float, float]:
-    """Mean |slip - measured| over the rows of Tables 8.5 and 8.6 (reversing loads), %."""
-    static = [_percent(model, static_load(n, f)) - measured for n, f, measured, *_ in STATIC]
-    moving = [_percent(model, reversing_load(n)) - measured for n, measured, *_ in REVERSING]
-    return float(np.abs(static).mean()), float(np.abs(moving).mean())
-
-
-def printed_errors(stage: int) -> tuple[float, float]:
-    """Mean |slip - measured| of the source's stage 1 or 2 over the same rows, %."""
-    static, moving = (
-        np.mean([abs(row[-3 + stage] - row[-3]) for row in rows]) for rows in (STATIC, REVERSING)
-    )
-    return float(static), float(moving)
+def drained_model() -> Model:
+    """Films of all regimes with the oil at 60 °C, in pockets that the drops of the tests empty."""
+    return film_model(AT_60, DragConstants(0.0, 0.0), "moes")
 
 
 @evidence("measured elsewhere")
-def _beyond(gaps: RollerGaps) -> Iterator[Check]:
-    """Mean error against the measured slip, below that of the source's models in the same rows.
+def _measured() -> Iterator[Check]:
+    """Slip measured, beside films of all regimes with drained pockets and oil at 60 °C.
 
-    One change to each: pockets as drawn in stage 1, films of all regimes in stage 2 (with such
-    pockets; and drained, since the tests were lubricated by drops). Oil at 60 °C in all rows. The
-    limits are one-sided, since a model that is nearer to the measurements is no worse.
+    The temperature of the tests is not given: the 15 K within which it lies, 60 to 45 °C, move the
+    slip by 5 to 9 points, and by so much it may be off.
     """
-    source = "error of the print in the same rows, Table 8.5, 8.6"
-    stage_one, stage_two = printed_errors(1), printed_errors(2)
-    flooded = parts.drag_constants(gaps, AT_60, 9 / 22)
-    models: Sequence[tuple[str, Model, tuple[float, float]]] = (
-        ("stage 1, pockets as drawn", coulomb_model(gaps, AT_60, "geometric"), stage_one),
-        ("films of all regimes, flooded pockets", film_model(AT_60, flooded, "moes"), stage_two),
-        ("the same, drained pockets", film_model(AT_60, DragConstants(0.0, 0.0), "moes"),
-         stage_one),
-    )  # fmt: skip
-    for name, model, limits in models:
-        for load, limit, got in zip(("constant", "reversing"), limits, errors(model)):
-            label = f"mean error of the slip, {name}, {load} load"
-            yield Check(label, source, limit, got, 0.0, "below", "%")
+    model = drained_model()
+    for rpm, force, measured, *_ in STATIC:
+        got = _percent(model, static_load(rpm, force))
+        name = f"slip measured, {rpm}/min, {force / 1e3:g} kN"
+        yield Check(name, "Table 8.5, drained pockets", measured, got, 8.0, "absolute", "%")
+    for rpm, measured, *_ in REVERSING:
+        got = _percent(model, reversing_load(rpm))
+        name = f"slip measured, ±2 kN, {rpm}/min"
+        yield Check(
+            name, "Table 8.6, drained pockets", measured, got, 8.0, "absolute", "%",
+            missed=_OFTENER,
+        )  # fmt: skip
 
 
 @evidence("print of the source")

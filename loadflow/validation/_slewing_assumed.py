@@ -11,6 +11,11 @@ import numpy as np
 from loadflow.validation._slewing_cases import BLADE, FOUR_BALL, FRICTION_TESTS, SPECTRUM, coacting
 from loadflow.validation.check import Check, evidence
 
+_LOST = (
+    "printed of rings that give way between a blade and a hub, all of which is lost: rigid ones "
+    "lie 5 to 16 % below, even rings on springs further; no one clearance meets all six cases"
+)
+
 
 @evidence("print of the source")
 def checks() -> Iterator[Check]:
@@ -54,21 +59,20 @@ def checks() -> Iterator[Check]:
         0.1,
         unit="N",
     )
-    # the printed forces are of flexible rings: between as much and a quarter more
     spectrum = coacting(wide, *SPECTRUM[:, :3].T)
     for i, row in enumerate(SPECTRUM):
-        band = f"assuming {coacted}, L_A = 60 mm; printed is flexible"
-        for name, source, printed, ours, middle, half in (
-            ("F_k,max", "Table 4.4", row[3], spectrum.maximum_force[i], 1.125, 0.125),
-            ("P_ea", "Table 4.6", row[4], spectrum.equivalent_load[i], 1.125, 0.075),
+        for name, source, printed, ours in (
+            ("F_k,max", "Table 4.4", row[3], spectrum.maximum_force[i]),
+            ("P_ea", "Table 4.6", row[4], spectrum.equivalent_load[i]),
         ):
             yield Check(
-                f"{name}, case {i + 1}, {printed:g} N printed over rigid rings",
-                f"{source}, {band}",
-                middle,
-                float(printed / ours),
-                half,
-                "absolute",
+                f"{name}, case {i + 1}",
+                f"{source}, assuming {coacted}, L_A = 60 mm",
+                printed,
+                float(ours),
+                0.03,
+                unit="N",
+                missed=_LOST,
             )
     extract = zip(
         (3400, 3200, 3000, 2900, 2700, 2500, 2400, 2200),

@@ -41,7 +41,8 @@ _STUDY = (
     ("90 → 60 °C", {"temperature": 333.15}, "pin", 45.0, 15.0, ""),
 )
 
-_MODEST = 1000.0
+_MODEST, _QUICK = 1000.0, 3000.0
+_SLIP = "(5.104)–(5.109) leave out what the rollers lose by slip; without it, stage 2 loses less"
 _FILM_STUDY: tuple[tuple[str, dict[str, Any], str, float, float, str], ...] = (
     ("s₃ uneven by half", {"main": uneven(MAIN)}, "main", 3.5, 1.0, ""),
     ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 7.0, 3.0, ""),
@@ -61,7 +62,7 @@ def of(part: str, found: FrictionTorque) -> float:
 
 @evidence("print of the source")
 def checks() -> Iterator[Check]:
-    """Yield the rig's evaluation, the parameter study and the three configurations."""
+    """Yield the rig's evaluation, the parameter study and two configurations."""
     angle = np.linspace(0.0, 40 * np.pi, 7200, endpoint=False)
     moving = 4.0 * np.sin(angle)
     got = measured_torque(-900.0 * np.cos(angle) + 3.0 * moving, moving, 100.0)
@@ -85,6 +86,7 @@ def checks() -> Iterator[Check]:
     name = f"90 → 60 °C, main, {_SLOW:g}/min"
     yield Check(name, "ch. 8.3.1, masses assumed", 25.0, got, 10.0, "absolute", "%")
     yield from _study_of_films(rig)
+    yield from _stages(rig)
     yield from _configurations()
 
 
@@ -100,26 +102,25 @@ def _study_of_films(rig: CrankRig) -> Iterator[Check]:
         )
 
 
+def _stages(rig: CrankRig) -> Iterator[Check]:
+    """Both stages of the whole rig; the source prints which of them loses less, and no number."""
+    for rpm in (_MODEST, _QUICK):
+        films, coulomb = (rig.friction_torque(rpm, stage).torque for stage in ("film", "coulomb"))
+        yield Check(
+            f"torque, stage 2 over stage 1, {rpm:g}/min, < 1", "ch. 8.3.2, masses assumed", 1.0,
+            films / coulomb, 0.0, "below", missed=_SLIP,
+        )  # fmt: skip
+
+
 def _configurations() -> Iterator[Check]:
-    """Rollers on the pin, a journal bearing there, and a straight shaft."""
+    """Rollers on the pin, and a journal bearing there."""
     rollers = CrankRig()
     journal = replace(
         rollers, pin_film=JournalBearing(diameter=48e-3, width=18e-3, relative_clearance=1e-3)
     )
-    straight = replace(rollers, drive=None)
     speeds = (500.0, 1500.0, 3000.0)
-    one, two, three = (
-        [rig.friction_torque(n).torque for n in speeds] for rig in (rollers, journal, straight)
-    )
+    one, two = ([rig.friction_torque(n).torque for n in speeds] for rig in (rollers, journal))
     source = "ch. 7.3, 8.3.2, bearing of the pin assumed"
-    ratio = (three[2] - three[0]) / (one[2] - one[0])
-    yield Check("rise over speed, straight shaft over cranked", source, 1.0, ratio, -0.2, "below")
-    yield Check(
-        "rollers over journal on the pin, 500/min", source, 1.0, one[0] / two[0], 0.0, "below"
-    )
-    yield Check(
-        "journal over rollers on the pin, 3000/min", source, 1.0, two[2] / one[2], 0.0, "below"
-    )
     gap = np.array(two) - np.array(one)
     crossing = float(np.interp(0.0, -gap[1:], speeds[1:]))
     yield Check(

@@ -83,20 +83,24 @@ def base_load_checks() -> Iterator[Check]:
         yield Check(f"So_max, {name}", "Table 5-13", row.so_max, so_max, 0.012)
 
 
-# Table 1-3: mean pressure (Pa), speed (rad/s), So; ψ = 1e-3, η = 0.09 Pa s
-MEAN_PRESSURES = ((6.6e5, 1.6, 4.7), (8.1e6, 14.7, 6.2))
+# Table 1-3: mean pressure (Pa), speed (rad/s), So, half their last digits over them, summed up;
+# ψ = 1e-3, η = 0.09 Pa s
+MEAN_PRESSURES = ((6.6e5, 1.6, 4.7, 0.05), (8.1e6, 14.7, 6.2, 0.018))
 
 
 @evidence("print of the source")
 def number_checks() -> Iterator[Check]:
-    """So on the mean pressure, (1.13), of Table 1-3, whose inputs have two digits."""
+    """So on the mean pressure, (1.13), of Table 1-3, within the rounding of what is printed.
+
+    Ours are 4.58 and 6.12; at 15 1/min, which is 1.57 rad/s, the first would be 4.67.
+    """
     from loadflow.journal import JournalBearing
 
     bearing = JournalBearing(diameter=1.0, width=0.5, relative_clearance=1e-3)
-    for pressure, omega, printed in MEAN_PRESSURES:
+    for pressure, omega, printed, rounding in MEAN_PRESSURES:
         got = float(bearing.sommerfeld_number(pressure * 0.5, omega, 0.09))
         name = f"So of {pressure / 1e6:g} MPa at {omega} rad/s"
-        yield Check(name, "(1.13), Table 1-3", printed, got, 0.03)
+        yield Check(name, "(1.13), Table 1-3", printed, got, rounding)
 
 
 # Tables 5-14 … 5-16, V = 24 m/s: mean, then amplitude (kN) and frequency (°/s) of three sines, for

@@ -1,4 +1,4 @@
-"""Flexible rings of slewing bearings: closed forms, trends, our own solid rings.
+"""Flexible rings of slewing bearings: closed forms, our own solid rings.
 
 The source's ring sections are lost, so that every row of it (`printed`, shown by the table
 ``rolling``) assumes sections and supports, which its label states. `SOLID_FOUR`, `SOLID_DRIVE` hold
@@ -22,7 +22,6 @@ from loadflow.rolling import (
     RingSection,
     SlewingBearing,
     Support,
-    legs,
 )
 from loadflow.rolling.rings.finite_element import FiniteElementRing
 from loadflow.rolling.rings.patches import PatchPoints
@@ -90,7 +89,7 @@ def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _closed_forms()
     yield from _rigid_limit()
-    yield from _trends()
+    yield from _in_series()
     yield from _four_ball()
     yield from _drive()
 
@@ -134,7 +133,7 @@ def _compliance(ring: RingBeam, azimuth: np.ndarray, radius: float, height: floa
     return np.einsum("bcm,BCm->bcBC", factor, factor)
 
 
-def _beams(stiffness: float = 1.0, outer: Support | None = None) -> FlexibleRings:
+def _beams(stiffness: float = 1.0) -> FlexibleRings:
     """Rings of the 45-ball bearing as beams on a bed at one face."""
     section, width = RingSection.rectangle(0.030, 0.040), 0.032
     bed = 1e11 * stiffness
@@ -146,7 +145,7 @@ def _beams(stiffness: float = 1.0, outer: Support | None = None) -> FlexibleRing
     return FlexibleRings(
         outer=RingBeam(
             radius=0.145, **common,
-            supports=(outer or Support(radius=0.144, height=-0.02, **springs),),
+            supports=(Support(radius=0.144, height=-0.02, **springs),),
         ),
         inner=RingBeam(
             radius=0.105, **common, supports=(Support(radius=0.106, height=0.02, **springs),)
@@ -170,31 +169,17 @@ def _rigid_limit() -> Iterator[Check]:
                 force, 1e-6, unit="N")  # fmt: skip
 
 
-@evidence("print of the source")
-def _trends() -> Iterator[Check]:
-    """Class C of the source: what flexible rings must do."""
+@evidence("consistency")
+def _in_series() -> Iterator[Check]:
+    """Under axial load the rings are springs in series: what each of them adds, adds up."""
     both = _beams()
-    up, down = (abs(_solve(DRIVE, (0, 0, f, 0, 0), both)[0]) for f in (5e4, -5e4))
-    yield Check("u_z in compression over tension", "ch. 3.5, < 1", 1.0, down / up, -0.01, "below")
-    rigid, one, other = (
+    rigid, one, other, up = (
         float(DRIVE.equilibrium((0, 0, 5e4), rings=r).displacement[2])
-        for r in ("rigid", replace(both, inner=None), replace(both, outer=None))
+        for r in ("rigid", replace(both, inner=None), replace(both, outer=None), both)
     )
-    yield Check("u_z, rigid over one flexible ring", "ch. 3.5, < 1", 1.0,
-                rigid / min(one, other), -0.01, "below")  # fmt: skip
-    yield Check("u_z, one flexible ring over both", "ch. 3.5, < 1", 1.0, max(one, other) / up,
-                -0.01, "below")  # fmt: skip
-    moved = []
-    for count in (3, 4):
-        support = Support(
-            radius=0.144, height=-0.02, radial=3e9, tangential=3e9, axial=3e9, tilt=3e5,
-            sectors=legs(count, 0.35),
-        )  # fmt: skip
-        rings = replace(_beams(outer=support), inner=None)
-        result = DRIVE.equilibrium((500, 0, 500), (0, 200), rings=rings)
-        moved.append(float(np.linalg.norm(result.ring_displacement("outer"), axis=-1).max()))
-    yield Check("largest deformation, four legs over three", "ch. 3.3: 1.27/4.74, < 1", 1.0,
-                moved[1] / moved[0], -0.1, "below")  # fmt: skip
+    # the contact angle turns with all of them
+    yield Check("u_z, both rings flexible", "rigid rings and what each flexible one adds",
+                1e3 * (one + other - rigid), 1e3 * up, 0.01, unit="mm")  # fmt: skip
 
 
 def _four_ball_printed() -> Iterator[Check]:

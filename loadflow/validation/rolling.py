@@ -1,7 +1,7 @@
 """Rolling bearings: the tables of [Ritzer 2018], ISO standards, Harris.
 
 Rows whose source carries "assuming ..." need that assumption, which the source does not state;
-rows that end in "< 1" hold a trend; rows marked as refused show why a printed number is not held.
+rows marked as refused show why a printed number is not held.
 """
 
 from __future__ import annotations

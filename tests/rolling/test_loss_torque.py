@@ -100,6 +100,22 @@ def test_colder_oil_costs_more_in_both_stages():
         assert cold > 1.1 * warm
 
 
+def test_configurations_of_the_crank_rig_lose_in_the_order_measured():
+    film = JournalBearing(diameter=48e-3, width=18e-3, relative_clearance=1e-3)
+    rigs = CrankRig(), CrankRig(pin_film=film), CrankRig(drive=None)
+    slow, fast = ([rig.friction_torque(n).torque for rig in rigs] for n in (500.0, 3000.0))
+    assert slow[0] < slow[1]
+    assert fast[1] < fast[0]
+    assert fast[2] - slow[2] < 0.8 * (fast[0] - slow[0])
+
+
+def test_stage_two_loses_less_than_stage_one_only_without_its_loss_of_slip():
+    rig = CrankRig(seal_force=0.0)
+    coulomb, films = (rig.friction_torque(1000.0, stage) for stage in ("coulomb", "film"))
+    slip = films.torques["main slip"] + films.torques["pin slip"]
+    assert films.torque - slip < coulomb.torque < films.torque
+
+
 def test_drag_is_the_moment_times_the_spin():
     held = drag_constants(MAIN.gaps, 0.01, 9 / 22, variant="thesis")
     motion = coulomb_motion(HISTORY, held)

@@ -18,7 +18,7 @@ SLOW = ("film_charts", "rolling", "thrust", "towers", "turbines")
 COUNTED = {
     "friction": r"rollers loaded|^period, |^R_3, F = 2 kN|^τ_lim at|exponent 1$",
     "reduction": "classes for|kept of|cycles of range",
-    "rolling": "ball in four-point contact|loaded contacts at|share of balls",
+    "rolling": "ball in four-point contact|share of balls",
     "seeds": r", R_\d",
     "turbines": "IEA 15 MW: pitch, V = (9|10) m/s",
 }
