@@ -9,6 +9,7 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cli import main
+from loadflow.cli.lists import LISTS
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict, switched
 from loadflow.planning.pilot import EFFORTS, effort_for, hardest, pilot
@@ -126,6 +127,38 @@ def test_an_effect_is_in_or_out_as_it_is_switched(effect, cube):
             assert effect.is_on(changed) == on
             back = switched(changed, effect, not on)
             assert back is None or effect.is_on(back) != on
+
+
+GROOVE = {"angle": 3.14, "length": 0.5, "pressure": 6e5}
+CIRCLE = {"grooves": [GROOVE | {"shape": "circle"}]}
+THICK = {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}
+
+
+@pytest.mark.parametrize(
+    ("effect", "known", "unknown", "said"),
+    [
+        (film.SUPPLY, {"grooves": [GROOVE | {"arc": 0.3}]}, CIRCLE, "grooves and pockets of given"),
+        (film.SHELL, {"kind": "local", "compliance": 1e-13}, THICK, "a local shell"),
+    ],
+    ids=["supply", "shell"],
+)
+def test_a_rung_that_knows_a_part_of_an_effect_is_listed_with_that_part(
+    effect, known, unknown, said
+):
+    (key,) = effect.keys
+
+    def scene(value, rung):
+        return make_scene({"journal": {key.removeprefix("journal."): value, "rung": rung}})
+
+    assert effect.known_by(scene(known, "reduced"))
+    assert effect.known_by(scene(unknown, "grid"))
+    with pytest.raises(InputError, match="reduced"):
+        scene(unknown, "reduced")
+    heads, rows = LISTS["effects"]()
+    (row,) = (row for row in rows if row[0] == effect.name)
+    label = dict(zip(heads, row))["known by rungs"]
+    assert label.startswith("grid, reduced (")
+    assert said in label
 
 
 def test_a_film_is_warmed_by_an_oil_that_enters_with_the_stated_viscosity(cube):

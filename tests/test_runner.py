@@ -77,7 +77,7 @@ def test_a_run_answers_all_that_was_asked(finished):
     tree = finished.tree
     assert set(tree.children) == {
         "statistics", "seeds", "journal", "rolling", "friction", "check", "verdicts", "lifetime",
-        "loads", "energy",
+        "loads", "energy", "shaft",
     }  # fmt: skip
     assert tree["energy"]["rotor_power"].dims == ("case",)
     assert np.isfinite(tree["energy"]["journal_loss"]).all()

@@ -13,7 +13,9 @@ from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
 from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
+from loadflow.studies.compare_tilt import carries_thrust
 from loadflow.studies.run_lifetime import run_lifetime
+from loadflow.studies.uncarried import empty_places
 from loadflow.studies.verdicts import verdicts
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
@@ -30,8 +32,8 @@ def scene_of(cube, **keys):
         "journal": FILM,
         "rolling": {"arrangement": "two-spherical"},
         "friction": {"step": 2.0},
-    }
-    return make_scene(data | keys)
+    } | keys
+    return make_scene({name: part for name, part in data.items() if part is not None})
 
 
 @pytest.fixture(scope="module")
@@ -112,6 +114,38 @@ def test_a_force_along_the_shaft_is_carried_by_a_rolling_bearing_and_by_no_film(
     assert rolling.holds
     assert "carried by N2, a SphericalRollerBearing" in rolling.note
     assert not [v for v in run.verdicts if v.subject.endswith("N") and "along" in v.quantity]
+
+
+@pytest.mark.parametrize("shaft", ["two_point", "integrated", "direct_drive"])
+def test_a_force_along_the_shaft_at_a_place_without_a_bearing_is_carried_by_nothing(
+    cube, tmp_path, shaft
+):
+    given = {"shaft": {shaft: {}}, "results": ["journal.film"], "accuracy": "given"}
+    film = FILM | {"kind": "journal", "motion": "quasi-static"}
+    alone = scene_of(cube, **given, journal=None, rolling=None, bearings={"N": film})
+    done = lf.run(alone, out=tmp_path, report=shaft == "two_point")
+    found = one(done, "journal arrangement", "force along the shaft without a bearing")
+    assert found.answer == "broken"
+    assert "place N2 has no bearing in this scene" in found.note
+    assert "nothing in the scene carries it" in found.note
+    loads = xr.load_dataset(done.path / "shaft" / f"{found.case}.h5", engine="h5netcdf")
+    force = loads["force"].sel(bearing="N2", axis="x").sel(time=found.time)
+    assert found.value == pytest.approx(abs(float(force)), rel=1e-6)
+    assert found.value == pytest.approx(float(done.tree["shaft"]["largest_axial_load"].max()))
+    assert carries_thrust(alone, tables(done)) == (
+        f"none: needs a thrust bearing for {found.value / 1e3:.0f} kN"
+    )
+
+
+def test_only_shafts_whose_bearings_are_solved_need_one_that_locates():
+    """A three-point shaft is located at N; a moment bearing beside it is another arrangement."""
+    film = {"kind": "journal"}
+    both = {"name": "x", "shaft": {"three_point": {}, "moment": {}}, "bearings": {"N": film}}
+    assert [*empty_places(make_scene(both), {"N"})] == []
+    second = {"name": "x", "shaft": {"two_point": {}}, "bearings": {"N": film, "N2": film}}
+    assert [*empty_places(make_scene(second), {"N", "N2"})] == []
+    first = {"name": "x", "shaft": {"two_point": {}, "moment": {}}, "bearings": {"N": film}}
+    assert [*empty_places(make_scene(first), {"N"})] == ["N2"]
 
 
 def test_limits_are_those_of_the_scene_and_say_so(run):

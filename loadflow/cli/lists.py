@@ -80,8 +80,7 @@ def effects() -> Rows:
     from loadflow.stages.effects.registry import EFFECTS
 
     rows: list[Row] = [
-        (one.name, one.model, ", ".join(one.keys), ", ".join(one.rungs) or "all", one.needs)
-        for one in EFFECTS
+        (one.name, one.model, ", ".join(one.keys), one.known_by_words, one.needs) for one in EFFECTS
     ]
     return ("effect", "model", "keys", "known by rungs", "needs"), rows
 

@@ -160,12 +160,12 @@ def _sections(
     yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
     yield loads_section(folder, tables, shown)
-    if "shaft" in tables:
+    if "iterations" in tables.get("shaft", ()):
         yield Section(
             "Shaft",
             "Shaft and the scene's own bearings, iterated until they agree. Marked: cases with "
             "samples to which a bearing has no answer; it is rigid there.",
-            tables=[_case_table(tables["shaft"])],
+            tables=[_case_table(tables["shaft"].drop_dims("bearing"))],
         )
     if "seeds" in tables:
         yield seed_section(folder, tables["seeds"], manifest, force_of)

@@ -124,7 +124,7 @@ def run(
     ...     done = run(scene, out=folder, report=False)
     ...     there = (done.path / "manifest.json").exists()
     >>> there, list(done.tree.children)
-    (True, ['loads', 'statistics'])
+    (True, ['loads', 'shaft', 'statistics'])
     """
     where = executor(workers, scheduler)
     told = Profile() if profile else None

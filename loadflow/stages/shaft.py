@@ -117,11 +117,35 @@ def _against_housings(concept: Concept, found: xr.Dataset) -> xr.Dataset:
     return found.assign(tilt=(found["tilt"] - turned).assign_attrs(found["tilt"].attrs))
 
 
-def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset | None:
-    """How shaft and bearings agree in each case; None where no bearing is iterated with."""
-    if not all("converged" in part for part in parts.values()):
-        return None
-    return over_cases({case: _agreement(part) for case, part in parts.items()})
+def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
+    """Largest loads of each place in each case; also how shaft and bearings agree, if iterated."""
+    iterated = all("converged" in part for part in parts.values())
+    return over_cases(
+        {
+            case: _largest(part).merge(_agreement(part)) if iterated else _largest(part)
+            for case, part in parts.items()
+        }
+    )
+
+
+def _largest(part: xr.Dataset) -> xr.Dataset:
+    """Largest radial load of each place, and largest force along the shaft with its time."""
+    force = np.abs(part["force"].transpose("axis", "bearing", "time").values)
+    along, radial = force[0], np.hypot(force[1], force[2]).max(axis=1)
+    at = part["time"].values[along.argmax(axis=1)]
+    places = {"bearing": part["bearing"].values}
+
+    def of_places(values: Floats, units: str, meaning: str) -> tuple[xr.DataArray, str, str]:
+        return xr.DataArray(values, places, ["bearing"]), units, meaning
+
+    along_the_shaft = "largest force along the shaft"
+    return labelled(
+        {
+            "largest_load": of_places(radial, "N", "largest radial load"),
+            "largest_axial_load": of_places(along.max(axis=1), "N", along_the_shaft),
+            "largest_axial_load_time": of_places(at, "s", f"time of the {along_the_shaft}"),
+        }
+    )
 
 
 def _agreement(part: xr.Dataset) -> xr.Dataset:
@@ -137,6 +161,8 @@ def warnings(tree: xr.DataTree) -> list[str]:
     if "shaft" not in tree.children:
         return []
     found = tree["shaft"].to_dataset()
+    if "interpolation_error" not in found:  # a shaft that is not iterated with its bearings
+        return []
     worst = found.isel(case=int(np.argmax(found["interpolation_error"].values)))
     error, said = worst["interpolation_error"].item(), []
     if error > WARN:

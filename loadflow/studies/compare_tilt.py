@@ -16,6 +16,7 @@ from loadflow.shaft import bearing_loads
 from loadflow.shaft.options import Concept
 from loadflow.studies.compare_factor import SAMPLES
 from loadflow.studies.shaft_through import hollow_shaft, shaft_widths, through
+from loadflow.studies.uncarried import uncarried
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -32,6 +33,8 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
         forces = tables["thrust"]["largest_axial_load"].max("case")
         k = int(np.argmax(forces.values))
         return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
+    for verdict in uncarried(scene, tables):
+        return f"none: needs a thrust bearing for {verdict.value / 1e3:.0f} kN"
     if "journal" in tables:
         force = float(tables["journal"]["largest_axial_load"].max())
         return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"

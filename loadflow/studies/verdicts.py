@@ -19,12 +19,12 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.studies.uncarried import SLIGHT, uncarried
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
 
 Tables = Mapping[str, xr.Dataset]
 
-_SLIGHT = 1e-6  # of the radial load: a force along the shaft below this is none
 _ISOTHERMAL = "temperature not computed: the film has one viscosity"
 _STATED = "as the scene states"
 
@@ -42,7 +42,7 @@ def verdicts(
     scene : Scene
         What was run, with its limits.
     tables : mapping
-        Results by stage, each over ``bearing`` and ``case``: journal, thrust, rolling.
+        Results by stage, each over ``bearing`` and ``case``: shaft, journal, thrust, rolling.
     lifetime : xarray.Dataset or None
         Of `loadflow.studies.run_lifetime.run_lifetime`.
     missing : mapping, optional
@@ -67,7 +67,7 @@ def verdicts(
             found += _of_pads(scene.thrust.bearings[name], name, tables["thrust"].load())
     if "rolling" in tables:
         found += _of_rolling(scene, tables["rolling"].load(), lifetime)
-    return found
+    return [*found, *uncarried(scene, tables)]
 
 
 # --- journal bearings -------------------------------------------------------------------------
@@ -293,7 +293,7 @@ def _warmth(subject: str, table: xr.Dataset, limits: JournalLimits) -> Verdict:
 def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
     """Force along the shaft that its suspension puts on a bearing which cannot carry any."""
     value, case, time = _worst(table, "largest_axial_load", "most")
-    if not value > _SLIGHT * float(table["largest_load"].max()):
+    if not value > SLIGHT * float(table["largest_load"].max()):
         return None
     return Verdict(
         subject,
@@ -349,7 +349,7 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
                 note="share of the time of the load case",
             )  # fmt: skip
         value, case, _ = _worst(part, "bearing_axial_force", "most")
-        if value > _SLIGHT * float(part["bearing_force"].max()):
+        if value > SLIGHT * float(part["bearing_force"].max()):
             carried = bearing.takes_thrust
             axis = "the shaft" if scene.rolling.bearings[name].oscillation is None else "its axis"
             force = f"{value / 1e3:.0f} kN along {axis}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -15,6 +16,7 @@ from loadflow.journal import (
     Heat,
     JournalBearing,
     Lubricant,
+    MassConserving,
     TiltingPads,
 )
 from loadflow.journal.film.pad_curve import pad_curve
@@ -141,3 +143,21 @@ def test_a_near_film_of_other_loads_or_pads_is_refused() -> None:
     plain = JournalBearing(1.4, 1.3, 1e-3)
     with pytest.raises(InputError, match=r"is not allowed: 1 load\(s\) on 0 pads"):
         plain.equilibrium([[4e5, 0.0]], SPEED, FILM, near=stated)
+
+
+@pytest.mark.parametrize("law", [MassConserving(), GasMixture(1e4)], ids=lambda law: law.kind)
+def test_ordinary_wind_loads_on_a_pad_have_answers(law: MassConserving | GasMixture) -> None:
+    """A 5 MW turbine under load on pad, the default angle: none ends in an error of its numbers."""
+    draw = np.random.default_rng(5)
+    load = 2e5 + 8e5 * draw.weibull(2.5, 60)
+    toward = draw.normal(0.0, 0.35, 60)  # from the first pivot
+    toward[:10] = 0.0  # on its very middle, where both sides are alike
+    force = load[:, None] * np.stack([np.cos(toward), np.sin(toward)], axis=-1)
+    speed = np.clip(draw.normal(1.1, 0.15, 60), 0.3, 1.35)
+    bearing = JournalBearing(1.4, 1.3, 1e-3, shape=TiltingPads(5, 1.05, preload=0.2))
+    film = Film(Lubricant(0.2), law, 1e5, grid=(180, 16))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        found = bearing.equilibrium(force, speed, film, strict=False)
+    assert found.converged.all()
+    assert (found.minimum_film > 0).all()

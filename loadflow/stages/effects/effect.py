@@ -43,6 +43,8 @@ class Effect:
         rung tells.
     rungs : tuple of str
         Rungs that know it, by the setting ``rung`` of the section; empty: all.
+    partly : tuple of (str, str)
+        Those of `rungs` that know a part of it alone, and which; scenes refuse the rest by name.
     own_kernels : bool
         Whether its model has compiled loops for it, and others for when it is out.
     """
@@ -58,12 +60,19 @@ class Effect:
     concerns: Callable[[Scene], bool] = lambda scene: True
     cost: Callable[[Scene], float] = lambda scene: 1.0
     rungs: tuple[str, ...] = ()
+    partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
 
     @property
     def section(self) -> str:
         """Section of the scene that holds it."""
         return self.keys[0].split(".")[0]
+
+    @property
+    def known_by_words(self) -> str:
+        """Which rungs know it, and what of it where that is not all."""
+        parts = {name: f"{name} ({part})" for name, part in self.partly}
+        return ", ".join(parts.get(name, name) for name in self.rungs) or "all"
 
     def is_open(self, scene: Scene) -> bool:
         """Whether the scene leaves it to the plan."""

@@ -349,6 +349,7 @@ SHELL = Effect(
     needs="a table journal.shell",
     cost=lambda scene: 3.0,
     rungs=("grid", "reduced"),
+    partly=(("reduced", "a local shell"),),
     own_kernels=True,
 )
 
@@ -434,5 +435,6 @@ SUPPLY = Effect(
     out="no journal.supply: the bearing ends stand in oil",
     needs="a table journal.supply",
     concerns=lambda scene: scene.journal.supply is not None,
-    rungs=("grid",),
+    rungs=("grid", "reduced"),
+    partly=(("reduced", "rectangular grooves and pockets of given pressure, in a whole bore"),),
 )
