@@ -536,6 +536,7 @@ OTHERS = {
     "reduction.method": ["stationary", "histogram"],
     "reduction.bounds": [[0.02, 0.2]],
     "reduction.orders": [[1.0]],
+    "reduction.between": [[5.0, 20.0]],
     "rolling.geometry.profile": ["straight"],
     "rolling.geometry.crown_radius": [18.0],
     "rolling.geometry.law": ["palmgren"],
