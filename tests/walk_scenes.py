@@ -501,6 +501,7 @@ OTHERS = {
     "shaft.yaw": [{}],
     "shaft.pitch": [{}],
     "rolling.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
+    "rolling.oscillation.idle_torque": ["first row", ["first row", "first seal"]],
     "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],
     "shaft.two_point.beam.supports": [[{"radial": 1e9}, {}]],
