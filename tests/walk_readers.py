@@ -186,6 +186,11 @@ def _environment(scene):
 def _reduction(scene):
     if scene.journal.in_motion:
         yield from _journal(scene)
+    elif scene.loads.source == "files":  # classes of a cube hold its own cases
+        first = list_cases(scene)[0]
+        hub = loads.hub_loads(scene, first, {})
+        series = {"loads": hub, "shaft": shaft.bearing_loads(scene, first, {"loads": hub})}
+        yield reduction.reduced_loads(scene, first, series)
     else:
         yield inputs(scene)["reduction"]
 

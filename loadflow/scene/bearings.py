@@ -10,6 +10,7 @@ from pydantic import (
     BaseModel,
     BeforeValidator,
     WrapSerializer,
+    field_validator,
     model_validator,
 )
 
@@ -32,6 +33,7 @@ from loadflow.rolling import (
     main_bearings,
 )
 from loadflow.rolling.friction import CatalogueEntry
+from loadflow.rolling.rating.oscillation import idle_torque_of
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.places import FOUR_POINT, GEOMETRIES
 from loadflow.scene.section import SECTION, told_apart
@@ -198,6 +200,18 @@ class FurtherBearing(BaseModel):
     catalogue: CatalogueEntry | None = None
     limits: RollingLimits = RollingLimits()
 
+    @field_validator("oscillation", mode="before")
+    @classmethod
+    def _idle_torque_is_named(cls, value: Any) -> Any:
+        # before pydantic tells each form that a torque may have by itself
+        stated = value.get("idle_torque") if isinstance(value, dict) else None
+        if not isinstance(stated, int | float | str | list):
+            return value
+        try:
+            return value | {"idle_torque": idle_torque_of(stated)}
+        except InputError as error:
+            raise ValueError(str(error)) from error
+
     @model_validator(mode="after")
     def _rings_fit(self) -> Self:
         try:
@@ -250,7 +264,7 @@ class FurtherBearing(BaseModel):
     @property
     def idle_torque(self) -> float:
         """Friction without load of a bearing that swings, N m; 0 of others."""
-        return 0.0 if self.oscillation is None else self.oscillation.idle_torque
+        return 0.0 if self.oscillation is None else idle_torque_of(self.oscillation.idle_torque)
 
     def at_work(self, temperature: float, ambient: float) -> Self:
         """Return the bearing with the clearance of its mounting at a temperature, K.

@@ -182,6 +182,11 @@ class Scene(Section, BaseModel):
         return self
 
     @model_validator(mode="after")
+    def _series_to_reduce_are_there(self) -> Self:
+        self.reduction.check(self.loads.source == "simulate", self.loads.duration)
+        return self
+
+    @model_validator(mode="after")
     def _events_are_there(self) -> Self:
         if self.loads.source == "simulate":
             check_per_year(self.lifetime, self.loads.dlcs, "rayleigh")

@@ -265,10 +265,10 @@ def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
     elif scene.reduction.orders is not None:
         yield "additional", "orders say which harmonics there are"
     if scene.journal.in_motion and not reads:
-        for key in ("method", "size", "classes", "pick", "seed", "bounds", "additional", "orders"):
+        for key in type(scene.reduction).model_fields:
             yield key, "a film in motion reads the whole series"
     elif scene.reduction.method != "histogram":
-        for key in ("size", "classes", "pick", "seed"):
+        for key in ("size", "classes", "pick", "seed", "between", "grid"):
             yield key, f'method = "{scene.reduction.method}" keeps no samples of classes'
     elif scene.reduction.size == 1.0:
         for key in ("pick", "seed"):

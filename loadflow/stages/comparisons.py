@@ -22,6 +22,7 @@ from loadflow.stages.film_past import past_of
 from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
+from loadflow.stages.kept_samples import stretch
 from loadflow.stages.loads import ROTOR, hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
@@ -124,13 +125,16 @@ def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     for bearing, node in parts["reduction"].children.items():
         load = np.hypot(*_governing(scene, parts["shaft"], bearing)[0].T)
         where, index = f"{case.name}, {bearing}", node["index"].values
+        # the times that the scene wants are the whole series that it speaks of
+        wanted = np.zeros(load.size, dtype=bool)
+        wanted[stretch(parts["loads"]["time"].values, scene.reduction.between, where)] = True
         yield Difference(
             "reduction",
             "reduction.histogram",
             "largest load",
             where,
             "the full series",
-            _relative(load[index].max(), load.max()),
+            _relative(load[index].max(), load[wanted].max()),
         )
         if "journal" in parts and not scene.journal.in_motion and bearing in _answered(parts):
             film = parts["journal"][bearing].to_dataset()
@@ -140,7 +144,7 @@ def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
                 "eccentricity ratio",
                 where,
                 "the full series",
-                _severest(scene.journal.at(bearing), bearing, load, parts, film),
+                _severest(scene.journal.at(bearing), bearing, load * wanted, parts, film),
             )
 
 

@@ -7,13 +7,14 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.reduction import Reduced, histogram
+from loadflow.reduction import Reduced
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.design_samples import Governed, periodic_samples, stationary_samples
 from loadflow.stages.frames import to_film
+from loadflow.stages.kept_samples import edges_of_cube, kept_samples
 from loadflow.stages.labelling import label
-from loadflow.stages.stage import Link, Measured, Rungs, Stage, always, load_links
+from loadflow.stages.stage import Link, Rungs, Stage, always, load_links
 
 
 def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
@@ -30,6 +31,7 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
     speed = loads["speed"].values.astype(float)
     time = loads["time"].values
+    shared = edges_of_cube(scene, "reduction", lambda one: governing_loads(scene, one))
     groups = {}
     for bearing in shaft["bearing"].values:
         force = _vectors(shaft["force"].sel(bearing=bearing))
@@ -40,16 +42,10 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
             whole = Governed(time, speed, _known(one), by_moment, f"{case.name}, bearing {bearing}")
             groups[str(bearing)] = _designed(scene, str(bearing), whole)
             continue
-        reduced = histogram(
-            speed,
-            to_film(moment if by_moment else force),
-            time,
-            size=scene.reduction.size,
-            classes=scene.reduction.classes,
-            pick=scene.reduction.pick,
-            seed=scene.reduction.seed,
-            source=f"{case.name}, bearing {bearing}",
-        )
+        load = to_film(moment if by_moment else force)
+        edges = shared.get(str(bearing))
+        source = f"{case.name}, bearing {bearing}"
+        reduced = kept_samples(scene, speed, load, time, edges, source)
         dataset = reduced_dataset(reduced, force, moment, by_moment)
         groups[str(bearing)] = dataset.assign(_tilted(shaft.sel(bearing=bearing), reduced))
     return xr.DataTree.from_dict(groups)
@@ -80,6 +76,15 @@ def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
     """
     support = scene.shaft.coupled.get(bearing)
     return bool(np.any(moment[:, 1:])) and (support is None or support.stiffness != "journal")
+
+
+def governing_loads(scene: Scene, shaft: xr.Dataset) -> dict[str, np.ndarray]:
+    """Radial force or tilting moment (n, 2) of each bearing, whichever governs it."""
+    found = {}
+    for bearing in map(str, shaft["bearing"].values):
+        force, moment = (_vectors(shaft[name].sel(bearing=bearing)) for name in ("force", "moment"))
+        found[bearing] = to_film(moment if moment_governs(scene, bearing, moment) else force)
+    return found
 
 
 def _tilted(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:
@@ -129,14 +134,13 @@ def reduction_key(scene: Scene) -> str:
     pick, size = scene.reduction.pick, scene.reduction.size
     if scene.reduction.method != "histogram":
         return scene.reduction.method
+    between = scene.reduction.between
+    times = f", {between[0]:g} to {between[1]:g} s" if between else ""
     classes = f", {scene.reduction.classes} classes" if scene.reduction.classes else ""
-    return "full series" if size == 1.0 else f"histogram, {pick}, {size:g}{classes}"
-
-
-def kept_share(scene: Scene, measured: Measured) -> float:
-    """Share of the series that is left; classes that keep one sample at least make it larger."""
-    known = measured(scene, "reduction") or {}
-    return min(1.0, scene.reduction.size * known.get("samples_over_wanted", 1.0))
+    classes += " of the whole cube" if scene.reduction.grid == "cube" else ""
+    if size == 1.0:
+        return f"full series{times}"
+    return f"histogram, {pick}, {size:g}{classes}{times}"
 
 
 STAGE = Stage(

@@ -11,14 +11,14 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.journal.thrust_curves import CollarFilms
 from loadflow.quantities import table
-from loadflow.reduction import histogram
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
+from loadflow.stages.kept_samples import edges_of_cube, kept_samples
+from loadflow.stages.kept_share import kept_share
 from loadflow.stages.labelling import label, of_samples
-from loadflow.stages.reduction import kept_share
 from loadflow.stages.running_time import with_running
 from loadflow.stages.stage import (
     Link,
@@ -74,19 +74,14 @@ def samples_of(
         reduced: xr.Dataset = inputs["reduction"][place].to_dataset()
         return reduced[["time", "speed", "weight", "force", "moment"]]
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load().sel(bearing=place)
-    force, moment = (
-        shaft[name].transpose("time", "axis").values.astype(float) for name in ("force", "moment")
-    )
-    pressed = bearing.normal_load(to_rolling(force), to_rolling(moment))
-    kept = histogram(
+    force, moment = _vectors(shaft)
+    kept = kept_samples(
+        scene,
         loads["speed"].values.astype(float),
-        np.column_stack([pressed, np.zeros_like(pressed)]),
+        _pressed(bearing, shaft),
         loads["time"].values,
-        size=scene.reduction.size,
-        classes=scene.reduction.classes,
-        pick=scene.reduction.pick,
-        seed=scene.reduction.seed,
-        source=f"{case.name}, bearing {place}",
+        edges_of_cube(scene, "thrust", lambda one: _all_pressed(scene, one)).get(place),
+        f"{case.name}, bearing {place}",
     )
     axes = ("sample", "axis")
     return xr.Dataset(
@@ -99,6 +94,26 @@ def samples_of(
         },
         {"axis": ["x", "y", "z"]},
     )
+
+
+def _vectors(shaft: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
+    """Force, N, and moment, N m, on one bearing, (n, 3) each."""
+    force, moment = (
+        shaft[name].transpose("time", "axis").values.astype(float) for name in ("force", "moment")
+    )
+    return force, moment
+
+
+def _pressed(bearing: AnyAxial, shaft: xr.Dataset) -> np.ndarray:
+    """Load that presses on the films of one bearing, N, as the first of two components (n, 2)."""
+    force, moment = _vectors(shaft)
+    pressed = bearing.normal_load(to_rolling(force), to_rolling(moment))
+    return np.column_stack([pressed, np.zeros_like(pressed)])
+
+
+def _all_pressed(scene: Scene, shaft: xr.Dataset) -> dict[str, np.ndarray]:
+    bearings = scene.thrust.bearings.items()
+    return {place: _pressed(bearing, shaft.sel(bearing=place)) for place, bearing in bearings}
 
 
 def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid") -> xr.Dataset:

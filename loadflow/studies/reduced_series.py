@@ -16,6 +16,7 @@ from loadflow.errors import InputError
 from loadflow.reduction import histogram, phases, write_parameter_file
 from loadflow.report import Picture, Section, Table, figures, write_page
 from loadflow.scene.journal import Journal
+from loadflow.stages.kept_samples import stretch
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings, suspension
 from loadflow.studies.reduction_error import HEADS as FILM_HEADS
@@ -231,13 +232,7 @@ def _between(series: BearingSeries, phase: str, times: tuple[float, float]) -> t
     """Name and place of the samples of some time."""
     if phase:
         raise InputError("give either a phase or the times between which to reduce")
-    first, last = np.searchsorted(series.time, times, side="left")
-    if not times[0] < times[1] or last - first < 2:
-        raise InputError(
-            f"between = {times[0]:g}, {times[1]:g} s: fewer than two samples; the series runs from "
-            f"{series.time[0]:g} to {series.time[-1]:g} s"
-        )
-    return "stretch", slice(int(first), int(last))
+    return "stretch", stretch(series.time, times, f"bearing {series.bearing}")
 
 
 def _reduce(

@@ -7,11 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 import xarray as xr
 
-from loadflow.reduction import class_edges, number_of_classes
+from loadflow.stages.kept_samples import Edges, edges_of_all
 from loadflow.studies.bearing_series import BearingSeries
-
-Floats = np.ndarray
-Edges = tuple[Floats, Floats]
 
 
 def common_edges(
@@ -31,20 +28,8 @@ def common_edges(
     loadflow.errors.InputError
         Less than one class.
     """
-    ends: dict[str, Floats] = {}
-    lengths: dict[str, int] = {}
-    for one in every:
-        pair = np.stack([one.speed, np.hypot(*one.radial.T)])
-        known = [ends[one.bearing]] if one.bearing in ends else []
-        found = np.concatenate([pair, *known], axis=1)
-        ends[one.bearing] = np.stack([found.min(axis=1), found.max(axis=1)], axis=1)
-        lengths[one.bearing] = lengths.get(one.bearing, 0) + one.speed.size
-    edges = {}
-    for bearing, (speed, force) in ends.items():
-        number = number_of_classes(lengths[bearing]) if classes is None else classes
-        along, across = (number, number) if isinstance(number, int) else number
-        edges[bearing] = class_edges(speed, int(along)), class_edges(force, int(across))
-    return edges
+    series = ((one.bearing, one.speed, np.hypot(*one.radial.T)) for one in every)
+    return edges_of_all(series, classes)
 
 
 def whole_histograms(parts: Iterable[tuple[str, xr.Dataset]]) -> dict[str, xr.Dataset]:

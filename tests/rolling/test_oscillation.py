@@ -136,6 +136,41 @@ def test_idle_friction_adds_to_the_torque_of_a_scene():
     assert more - usual == pytest.approx(7560.0)
 
 
+@pytest.mark.parametrize(
+    ("named", "sum_of_them"),
+    [("first row", 3080.0), (["first row", "first seal"], 4970.0), ([*IDLE_TORQUES], 7560.0)],
+)
+def test_idle_friction_may_be_named_by_its_parts(named, sum_of_them):
+    swings = {"amplitude": 0.5, "frequency": 0.01}
+    for kind in (swings, {"kind": "pitch"}):
+        place = {} if kind is swings else {"shaft": {"two_point": {}, "pitch": {}}}
+        part = scene_of().rolling.model_dump(mode="json", exclude_none=True)["geometry"]
+        rolling_part = {"bearing": "Y" if kind is swings else "P", "geometry": part}
+        shaft_part = {"shaft": {"two_point": {}, "yaw": {}}} | place
+        data = {"name": "idle", "results": ["rolling.life"]} | shaft_part
+        rolling_part["oscillation"] = kind | {"idle_torque": named}
+        scene = make_scene(data | {"rolling": rolling_part})
+        assert scene.rolling.idle_torque == sum_of_them
+        # a resolved scene says the number
+        assert scene.model_dump(mode="json")["rolling"]["oscillation"]["idle_torque"] == sum_of_them
+    assert Oscillation(**swings, idle_torque=named).idle_torque == sum_of_them
+
+
+def test_an_unknown_part_of_idle_friction_is_refused_and_so_is_less_than_none():
+    swings = {"amplitude": 0.5, "frequency": 0.01}
+    for wrong, said in (
+        ("frist row", "first row"),
+        (["seal"], "first seal"),
+        ("grease", "-780"),
+        (-5.0, "-5"),
+    ):
+        with pytest.raises(InputError, match=f"idle_torque.*{said}") as told:
+            scene_of(oscillation=swings | {"idle_torque": wrong})
+        assert "\n" not in str(told.value)  # one line for the key
+        with pytest.raises(InputError, match=f"idle_torque.*{said}"):
+            Oscillation(**swings, idle_torque=wrong)
+
+
 def test_idle_friction_is_lost_at_the_speed_of_the_swing():
     swings = {"amplitude": 0.5, "frequency": 0.01}
     lost = []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 
@@ -10,7 +11,8 @@ import numpy as np
 from annotated_types import Ge, Gt, Le
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.numerics.fields import check_fields, check_one_of
+from loadflow.errors import InputError
+from loadflow.numerics.fields import check_fields, check_one_of, shown
 from loadflow.reduction import rainflow
 from loadflow.rolling.rating.life import oscillating_capacity, rating_life, spectrum_load
 
@@ -37,13 +39,45 @@ IDLE_TORQUES = {
 }
 """Torque without load of the blade bearing of [Ritzer 2018], App. C1, by what is added, N m."""
 
+IdlePart = Literal["first row", "second row", "first seal", "second seal", "grease"]
+IdleTorque = Annotated[float, Ge(0)] | IdlePart | tuple[IdlePart, ...]
+
+
+def idle_torque_of(stated: float | str | Sequence[str]) -> float:
+    """Torque without load, N m: a number, or the sum of `IDLE_TORQUES` by name.
+
+    Raises
+    ------
+    InputError
+        An unknown name, or less than 0, as grease alone has.
+
+    Examples
+    --------
+    >>> from loadflow.rolling.rating.oscillation import idle_torque_of
+    >>> idle_torque_of(["first row", "first seal"])
+    4970.0
+    """
+    if isinstance(stated, int | float):
+        torque = stated
+    else:
+        parts = [stated] if isinstance(stated, str) else stated
+        for part in parts:
+            check_one_of("idle_torque", part, IDLE_TORQUES)
+        torque = sum((IDLE_TORQUES[part] for part in parts), 0.0)
+    if not torque >= 0:
+        raise InputError(f"idle_torque: must be ≥ 0, got {shown(torque)}")
+    return torque
+
 
 class _Swinging:
-    """What every kind of oscillation has: what the bearing is mounted on."""
+    """What every kind of oscillation has: what the bearing is mounted on, and its idle torque."""
 
     mounting: MountedOn
+    idle_torque: IdleTorque
 
     def __post_init__(self) -> None:
+        # names stand for their sum from here on
+        object.__setattr__(self, "idle_torque", idle_torque_of(self.idle_torque))
         check_fields(self)
         check_one_of("mounting", self.mounting, MOUNTING_FACTORS)
 
@@ -61,7 +95,8 @@ class Oscillation(_Swinging):
     mounting : str
         One of `MOUNTING_FACTORS`: deformation of what carries the bearing shortens its life.
     idle_torque : float
-        Friction without load, N m; `IDLE_TORQUES` are those of one bearing.
+        Friction without load, N m. Given as the name of one of `IDLE_TORQUES`, those of one
+        bearing, or as several of them, it is their sum.
 
     Raises
     ------
@@ -80,7 +115,7 @@ class Oscillation(_Swinging):
     amplitude: Annotated[float, Gt(0), Le(2 * math.pi)]
     frequency: Annotated[float, Gt(0)]
     mounting: MountedOn = "rigid"
-    idle_torque: Annotated[float, Ge(0)] = 0.0
+    idle_torque: IdleTorque = 0.0
     kind: Literal["stated"] = "stated"
 
     of_pitch: ClassVar[bool] = False
@@ -166,7 +201,7 @@ class PitchMotion(_Swinging):
 
     threshold: Annotated[float, Gt(0), Le(0.1)] = math.radians(0.1)
     mounting: MountedOn = "pitch"
-    idle_torque: Annotated[float, Ge(0)] = 0.0
+    idle_torque: IdleTorque = 0.0
     kind: Literal["pitch"] = "pitch"
 
     of_pitch: ClassVar[bool] = True
