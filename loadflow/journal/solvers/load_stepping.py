@@ -123,6 +123,33 @@ def solve_by_stiffness(
     return replace(state, converged=False, iterations=spent, residual=1.0 - share)
 
 
+def solve_elastic_in_steps(
+    film: DiscreteFilm,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
+
+    Where asperities touch, the second comes first: it takes a third of the time.
+    """
+    asked = film, force, position, tolerance, free
+    by_shell = None if film.contact is None else solve_by_stiffness(*asked)
+    if by_shell is not None and by_shell.converged:
+        return by_shell
+    by_load = solve_in_load_steps(*asked)
+    if by_load.converged or film.clearance_left(by_load.position) <= APART:
+        return by_load
+    by_shell = by_shell or solve_by_stiffness(*asked)
+    spent = by_load.iterations + by_shell.iterations
+    if by_shell.converged or by_shell.residual < by_load.residual:
+        return replace(by_shell, iterations=spent)
+    film.relax()
+    film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
+    return replace(by_load, iterations=spent)
+
+
 def solve_from_held(
     film: DiscreteFilm,
     force: Array,

@@ -30,9 +30,8 @@ from loadflow.journal.solvers.load_stepping import (
     APART,
     has_touched,
     solve_by_approach,
-    solve_by_stiffness,
+    solve_elastic_in_steps,
     solve_from_held,
-    solve_in_load_steps,
 )
 from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
@@ -422,21 +421,8 @@ class Statics:
     ) -> Solution:
         """Equilibrium where Newton finds none at once."""
         film, free = self.film, self._free(pads)
-        if film.elastic and film.contact is not None:
-            by_shell = solve_by_stiffness(film, force, estimate, limits[0], free)
-            if by_shell.converged:
-                return by_shell
         if film.elastic:
-            by_load = solve_in_load_steps(film, force, estimate, limits[0], free)
-            if by_load.converged or film.clearance_left(by_load.position) <= APART:
-                return by_load
-            by_shell = solve_by_stiffness(film, force, estimate, limits[0], free)
-            spent = by_load.iterations + by_shell.iterations
-            if by_shell.converged or by_shell.residual < by_load.residual:
-                return replace(by_shell, iterations=spent)
-            film.relax()
-            film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
-            return replace(by_load, iterations=spent)
+            return solve_elastic_in_steps(film, force, estimate, limits[0], free)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             solution = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
