@@ -1,5 +1,6 @@
 """Linear algebra of films has one thread, and gives the others back."""
 
+import pytest
 from threadpoolctl import threadpool_info, threadpool_limits
 
 from loadflow.journal import JournalBearing, Lubricant
@@ -22,21 +23,20 @@ def test_a_film_is_solved_on_one_thread_and_the_others_come_back(monkeypatch):
     bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
     on_one_thread(threads)()  # SciPy's library is there
     with threadpool_limits(2, user_api="blas"):
-        before = threads()
+        assert threads() == {2}
         bearing.equilibrium((1e4, 0.0), 10.0, Lubricant(0.03), grid=(24, 8), rung="grid")
-        assert threads() == before
+        assert threads() == {2}
     assert seen
     assert all(one == {1} for one in seen)
 
 
 def test_an_error_gives_the_threads_back():
     def fails():
-        raise ValueError
+        assert threads() == {1}
+        raise ValueError("no film")
 
     on_one_thread(threads)()
     with threadpool_limits(2, user_api="blas"):
-        before = threads()
-        try:
+        with pytest.raises(ValueError, match="no film"):
             on_one_thread(fails)()
-        except ValueError:
-            assert threads() == before
+        assert threads() == {2}

@@ -179,5 +179,5 @@ def _extremes(
 
 
 def _check(check: Mapping[str, Any]) -> dict[str, str]:
-    change = "no answer" if check["change"] is None else f"{percent(check['change'])}"
+    change = "no answer" if check["change"] is None else percent(check["change"])
     return {**{key: str(check[key]) for key in ("stage", "quantity", "against")}, "change": change}

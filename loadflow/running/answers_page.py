@@ -70,7 +70,7 @@ def _tolerances(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         return
     data = tables["tolerances"]
     text = [data[name].values.tolist() for name in ("bearing", "key", "quantity", "case")]
-    ends = [[f"{percent(x, signed=True)}" for x in data[end].values] for end in ("low", "high")]
+    ends = [[percent(x, signed=True) for x in data[end].values] for end in ("low", "high")]
     heads = ["bearing", "value", "answer", "load case", "at the lower end", "at the upper end"]
     yield Table("Tolerances", heads, [list(row) for row in zip(*text, *ends)])
 

@@ -404,7 +404,7 @@ def _check_section(check: xr.Dataset) -> Section:
     rows = [
         [
             *(str(check[name].values[k]) for name in ("stage", "quantity", "case", "against")),
-            f"{percent(check['difference'].values[k])}",
+            percent(check["difference"].values[k]),
         ]
         for k in range(check.sizes["check"])
     ]

@@ -19,12 +19,11 @@ from loadflow.stages.effects.film import HEAT, MOTION
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
 from loadflow.stages.film_past import past_of
-from loadflow.stages.frames import to_film
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
 from loadflow.stages.kept_samples import stretch
 from loadflow.stages.loads import ROTOR, hub_loads
-from loadflow.stages.reduction import moment_governs
+from loadflow.stages.reduction import governing_load
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
@@ -102,7 +101,7 @@ def describe_loads(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str
 
     And the largest radial force by itself, where that governs.
     """
-    load, by_moment = _governing(scene, bearings, bearing)
+    load, by_moment = governing_load(scene, bearings, bearing)
     time = bearings["time"].values
     duration = float(time[-1] - time[0])
     sideways, upright = (damage_equivalent_load(track, SLOPE, duration) for track in load.T)
@@ -112,18 +111,9 @@ def describe_loads(scene: Scene, bearings: xr.Dataset, bearing: str) -> dict[str
     return {"bearing load max": largest} | radial | damage
 
 
-def _governing(scene: Scene, bearings: xr.Dataset, bearing: str) -> tuple[np.ndarray, bool]:
-    """Radial force or tilting moment (time, 2) of a bearing, and whether it is the moment."""
-    data = bearings.sel(bearing=bearing)
-    moment = data["moment"].transpose("time", "axis").values.astype(float)
-    force = data["force"].transpose("time", "axis").values.astype(float)
-    by_moment = moment_governs(scene, bearing, moment)
-    return to_film(moment if by_moment else force), by_moment
-
-
 def _reduction(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     for bearing, node in parts["reduction"].children.items():
-        load = np.hypot(*_governing(scene, parts["shaft"], bearing)[0].T)
+        load = np.hypot(*governing_load(scene, parts["shaft"], bearing)[0].T)
         where, index = f"{case.name}, {bearing}", node["index"].values
         # the times that the scene wants are the whole series that it speaks of
         wanted = np.zeros(load.size, dtype=bool)

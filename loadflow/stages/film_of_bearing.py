@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal import Control, Equilibrium, Film
 from loadflow.journal.grid_bounds import unresolved_counted
-from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.journal.transition import load_capacity
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_past import AT_REST, Past
+from loadflow.stages.film_past import AT_REST, Past, after_past
 from loadflow.stages.frames import from_film, to_film
 
 _CERTAIN = 1.2  # times the load that a film as thin as the roughness carries: no film is asked
 _LIGHT = 10.0  # Sommerfeld number below which the film is asked in any case
-NEARLY_WARM = 0.01  # K: moves a film by less than 0.1 %, beside another bearing's that is asked
+_NEARLY_WARM = 0.01  # K: moves a film by less than 0.1 %, beside another bearing's that is asked
 _IN_MOTION = Control(tolerance=1e-6)  # 1e-8 moves films by 4e-5 at most, for an eighth more time
 
 
@@ -51,23 +48,7 @@ def follow(
             found = options.geometry.orbit(**given, film=film, start=start, control=_IN_MOTION)
         return found.isel(time=slice(past.steps, None))
 
-    if not past.steps:
-        return path(AT_REST)
-    try:
-        return path(past)
-    except SolverError as error:
-        # a film that stops later has forgotten how it began
-        forgotten = series["time"][min(past.steps, series["time"].size - 1)]
-        if isinstance(error, OrbitStopped) and error.time > forgotten:
-            raise
-        found = path(AT_REST)
-        warnings.warn(
-            f"no film is found through the loads foretold before t = {series['time'][0]:g} s "
-            f"({error}): it begins at rest",
-            ValidityWarning,
-            stacklevel=2,
-        )
-        return found
+    return after_past(path, past, series["time"])
 
 
 def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
@@ -101,11 +82,11 @@ def equilibria(
 
     With a `moment` (n, 3), N m, the shaft tilts under it; with a `tilt` (n, 3), rad, and a `bend`,
     1/m, it lies as they say; without, it stays aligned. From films `near` of a bearing
-    that differs little, heat balances are solved to `NEARLY_WARM`.
+    that differs little, heat balances are solved to `_NEARLY_WARM`.
     """
     lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
     if near is not None:
-        lying |= {"near": near, "heat_tolerance": NEARLY_WARM}
+        lying |= {"near": near, "heat_tolerance": _NEARLY_WARM}
     with unresolved_counted():  # `film_summary` counts them
         return options.geometry.equilibrium(
             to_film(force), speed, options.film_model, strict=False, **lying

@@ -6,13 +6,18 @@ its gap the narrowest. A film forgets how it began within about two turns of the
 
 from __future__ import annotations
 
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.cube import time_step
+from loadflow.errors import SolverError, ValidityWarning
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.numerics.prediction import foretell_past
 from loadflow.scene.scene import Scene
 from loadflow.stages.running_time import running
@@ -57,6 +62,37 @@ class Past:
 
 AT_REST = Past()
 """None: the film begins at rest under the first load."""
+
+T = TypeVar("T")
+
+
+def after_past(path: Callable[[Past], T], past: Past, time: Floats) -> T:
+    """Follow a film along its `path` after a `past`; begin at rest where that carries none.
+
+    So it does where no film is found through the past, or for as long after it as it is remembered,
+    with a warning. `time` (n,), s, is that of the loads without the past.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No film is found from rest on, either, or it stops when it has forgotten how it began.
+    """
+    if not past.steps:
+        return path(AT_REST)
+    try:
+        return path(past)
+    except SolverError as error:
+        forgotten = time[min(past.steps, time.size - 1)]
+        if isinstance(error, OrbitStopped) and error.time > forgotten:
+            raise
+        found = path(AT_REST)
+        warnings.warn(
+            f"no film is found through the loads foretold before t = {time[0]:g} s "
+            f"({error}): it begins at rest",
+            ValidityWarning,
+            stacklevel=3,
+        )
+        return found
 
 
 def past_of(scene: Scene, loads: xr.Dataset) -> Past:

@@ -71,10 +71,7 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
     found: dict[str, tuple[xr.DataArray, str, str]] = {}
     for name, (of, which, units, meaning) in EXTREMES.items():
         if of in samples:
-            values = samples[of].values
-            if of in IN_MOTION:
-                values = np.where(turning, values, np.nan)
-            found |= _extreme(samples, name, values, which, units, meaning)
+            found |= _extreme(samples, name, _judged(samples, of, turning), which, units, meaning)
     if "load" in samples:
         values, meaning = np.where(turning, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
@@ -96,6 +93,12 @@ def extremes(samples: xr.Dataset) -> xr.Dataset:
         missed = (answered & ~touching & ~samples["resolved"].astype(bool)).sum()
         found["not_resolved"] = missed, "1", "samples whose film the cells do not resolve"
     return labelled(found)
+
+
+def _judged(samples: xr.Dataset, of: str, turning: NDArray[np.bool_]) -> NDArray[np.float64]:
+    """Values of which the extreme is taken; NaN where they do not count."""
+    values = samples[of].values
+    return np.where(turning, values, np.nan) if of in IN_MOTION else values
 
 
 def _extreme(
@@ -123,9 +126,7 @@ def _grid_errors(
     found = {}
     for name in ("smallest_film", "largest_pressure"):
         of, which, units, meaning = EXTREMES[name]
-        values, bounds = samples[of].values, samples.get(of + GRID_ERROR)
-        if of in IN_MOTION:
-            values = np.where(turning, values, np.nan)
+        values, bounds = _judged(samples, of, turning), samples.get(of + GRID_ERROR)
         bound = samples.attrs.get(of + GRID_ERROR, np.nan)
         if bounds is not None and np.isfinite(values).any():
             bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]

@@ -25,10 +25,18 @@ from loadflow.stages.film_past import AT_REST, past_of
 from loadflow.stages.film_summary import summary, warnings
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
-from loadflow.stages.kept_share import kept_share
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.running_time import with_running
-from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, load_links, steps_of
+from loadflow.stages.stage import (
+    Link,
+    Links,
+    Measured,
+    Rungs,
+    Stage,
+    kept_share,
+    load_links,
+    steps_of,
+)
 
 _TRIES = 200  # samples of a start that are asked for the first film
 

@@ -36,13 +36,12 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
     for bearing in shaft["bearing"].values:
         force = _vectors(shaft["force"].sel(bearing=bearing))
         moment = _vectors(shaft["moment"].sel(bearing=bearing))
-        by_moment = moment_governs(scene, str(bearing), moment)
+        load, by_moment = governing_load(scene, shaft, str(bearing))
         if scene.reduction.method != "histogram":
             one = shaft.sel(bearing=bearing)
             whole = Governed(time, speed, _known(one), by_moment, f"{case.name}, bearing {bearing}")
             groups[str(bearing)] = _designed(scene, str(bearing), whole)
             continue
-        load = to_film(moment if by_moment else force)
         edges = shared.get(str(bearing))
         source = f"{case.name}, bearing {bearing}"
         reduced = kept_samples(scene, speed, load, time, edges, source)
@@ -78,13 +77,17 @@ def moment_governs(scene: Scene, bearing: str, moment: np.ndarray) -> bool:
     return bool(np.any(moment[:, 1:])) and (support is None or support.stiffness != "journal")
 
 
+def governing_load(scene: Scene, shaft: xr.Dataset, bearing: str) -> tuple[np.ndarray, bool]:
+    """Radial force, N, or tilting moment, N m, (n, 2) of a bearing; whether it is the moment."""
+    force, moment = (_vectors(shaft[name].sel(bearing=bearing)) for name in ("force", "moment"))
+    by_moment = moment_governs(scene, bearing, moment)
+    return to_film(moment if by_moment else force), by_moment
+
+
 def governing_loads(scene: Scene, shaft: xr.Dataset) -> dict[str, np.ndarray]:
     """Radial force or tilting moment (n, 2) of each bearing, whichever governs it."""
-    found = {}
-    for bearing in map(str, shaft["bearing"].values):
-        force, moment = (_vectors(shaft[name].sel(bearing=bearing)) for name in ("force", "moment"))
-        found[bearing] = to_film(moment if moment_governs(scene, bearing, moment) else force)
-    return found
+    places = map(str, shaft["bearing"].values)
+    return {place: governing_load(scene, shaft, place)[0] for place in places}
 
 
 def _tilted(bearing: xr.Dataset, reduced: Reduced) -> dict[str, Any]:

@@ -14,10 +14,19 @@ from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages.kept_share import kept_share
 from loadflow.stages.labelling import label, labelled, of_samples
 from loadflow.stages.rolling_at_work import at_work, rest
-from loadflow.stages.stage import Link, Links, Measured, Rungs, Stage, always, load_links, steps_of
+from loadflow.stages.stage import (
+    Link,
+    Links,
+    Measured,
+    Rungs,
+    Stage,
+    always,
+    kept_share,
+    load_links,
+    steps_of,
+)
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import follows_pitch, swing_of
 from loadflow.tribology import lubricant

@@ -210,3 +210,12 @@ class Stage:
 def steps_of(cases: Iterable[Case]) -> int:
     """Samples of all series together."""
     return sum(case.steps for case in cases)
+
+
+def kept_share(scene: Scene, measured: Measured) -> float:
+    """Share of a series that the reduction leaves, for what the stages after it expect to solve.
+
+    Classes that keep one sample at least make it larger than the one asked for.
+    """
+    known = measured(scene, "reduction") or {}
+    return min(1.0, scene.reduction.size * known.get("samples_over_wanted", 1.0))

@@ -17,7 +17,6 @@ from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.kept_samples import edges_of_cube, kept_samples
-from loadflow.stages.kept_share import kept_share
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.running_time import with_running
 from loadflow.stages.stage import (
@@ -27,6 +26,7 @@ from loadflow.stages.stage import (
     Rungs,
     Stage,
     always,
+    kept_share,
     load_links,
     steps_of,
 )
@@ -78,7 +78,7 @@ def samples_of(
     kept = kept_samples(
         scene,
         loads["speed"].values.astype(float),
-        _pressed(bearing, shaft),
+        _pressed(bearing, force, moment),
         loads["time"].values,
         edges_of_cube(scene, "thrust", lambda one: _all_pressed(scene, one)).get(place),
         f"{case.name}, bearing {place}",
@@ -104,16 +104,18 @@ def _vectors(shaft: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     return force, moment
 
 
-def _pressed(bearing: AnyAxial, shaft: xr.Dataset) -> np.ndarray:
+def _pressed(bearing: AnyAxial, force: np.ndarray, moment: np.ndarray) -> np.ndarray:
     """Load that presses on the films of one bearing, N, as the first of two components (n, 2)."""
-    force, moment = _vectors(shaft)
     pressed = bearing.normal_load(to_rolling(force), to_rolling(moment))
     return np.column_stack([pressed, np.zeros_like(pressed)])
 
 
 def _all_pressed(scene: Scene, shaft: xr.Dataset) -> dict[str, np.ndarray]:
+    """The same of all bearings, by place."""
     bearings = scene.thrust.bearings.items()
-    return {place: _pressed(bearing, shaft.sel(bearing=place)) for place, bearing in bearings}
+    return {
+        place: _pressed(bearing, *_vectors(shaft.sel(bearing=place))) for place, bearing in bearings
+    }
 
 
 def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid") -> xr.Dataset:

@@ -69,7 +69,6 @@ class Deciding:
     """Samples of a place that decide, where they are among all, and what is known of them."""
 
     places: NDArray[np.int64]
-    weight: Floats
     films: Films
 
     def of(self, options: Journal, samples: xr.Dataset) -> Films:
@@ -78,14 +77,12 @@ class Deciding:
         Where films do not depend on what differs, such as the roughness of a smooth model, they are
         those as stated.
         """
-        some = samples.isel(sample=self.places)
-        some = some.assign(weight=some["weight"].copy(data=self.weight))
         known = self.films
+        some = samples.isel(sample=self.places).assign(weight=known.samples["weight"])
         if options.film_model == known.options.film_model and (
             options.geometry == known.options.geometry and _alike(some, known.samples)
         ):
-            kept = {name: getattr(known, name) for name in ("answer", "thin", "hard", "heavier")}
-            return Films(options, some, **kept)
+            return replace(known, options=options, samples=some)
         return films_of(options, some, known)
 
 
@@ -138,7 +135,7 @@ def deciding_of(films: Films) -> Deciding:
     kept = kept.assign(weight=kept["weight"].copy(data=shared[places]))
     thin, hard = (int(np.searchsorted(places, one)) for one in (films.thin, films.hard))
     own = Films(options, kept, _rows(answer, places), thin, hard, films.heavier)
-    return Deciding(places, shared[places], own)
+    return Deciding(places, own)
 
 
 def _nearest(samples: xr.Dataset, some: NDArray[np.int64]) -> NDArray[np.int64]:

@@ -33,12 +33,10 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
         forces = tables["thrust"]["largest_axial_load"].max("case")
         k = int(np.argmax(forces.values))
         return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
-    for verdict in uncarried(scene, tables):
-        return f"none: needs a thrust bearing for {verdict.value / 1e3:.0f} kN"
-    if "journal" in tables:
-        force = float(tables["journal"]["largest_axial_load"].max())
-        return f"none: needs a thrust bearing for {force / 1e3:.0f} kN"
-    return "none"
+    left = [verdict.value for verdict in uncarried(scene, tables)]
+    if "journal" in tables and not left:
+        left = [float(tables["journal"]["largest_axial_load"].max())]
+    return f"none: needs a thrust bearing for {max(left) / 1e3:.0f} kN" if left else "none"
 
 
 @dataclass(frozen=True)

@@ -266,8 +266,9 @@ def _misaligned(built: Built, angle: float) -> Iterator[Tolerance]:
         straight = _changed(built, journal=lambda journal: {"tilt": True})
         lying = one.journal.tilt
         same = lying and all(one.journal.at(place).tilt for place in one.journal.bearings)
-        level = replace(straight, spectrum=_tilted(straight, (0.0, 0.0), lying))
-        stated = built if same else level
+        stated = built
+        if not same:
+            stated = replace(straight, spectrum=_tilted(straight, (0.0, 0.0), lying))
         ways = [(0.0, angle), (0.0, -angle), (angle, 0.0), (-angle, 0.0)]
         ends = tuple(_askew(straight, way, lying) for way in ways)
         yield Tolerance("alignment", stated, ends)

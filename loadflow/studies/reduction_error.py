@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.cube import standing
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_past import AT_REST, past_of_speed
+from loadflow.stages.film_past import Past, after_past, past_of_speed
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.journal import fast_film
 from loadflow.studies.bearing_series import BearingSeries
@@ -104,14 +104,16 @@ def _orbit(series: BearingSeries, journal: Journal) -> Floats:
     given = {"time": series.time, "speed": series.speed, "force": series.radial}
     step = float(np.ptp(series.time)) / (series.time.size - 1)
     runs = ~standing(xr.Dataset({"speed": ("time", series.speed)})).values
-    for past in dict.fromkeys((past_of_speed(series.speed, step, runs), AT_REST)):
-        try:
-            loads: dict[str, Any] = past.before(given)
-            path = journal.geometry.orbit(**loads, film=journal.film_model)
-        except SolverError:
-            continue
-        return np.asarray(path["eccentricity_ratio"].values[past.steps :])
-    return np.empty(0)
+
+    def path(past: Past) -> Floats:
+        loads: dict[str, Any] = past.before(given)
+        found = journal.geometry.orbit(**loads, film=journal.film_model)
+        return np.asarray(found["eccentricity_ratio"].values[past.steps :])
+
+    try:
+        return after_past(path, past_of_speed(series.speed, step, runs), series.time)
+    except SolverError:  # the static films stand for themselves
+        return np.empty(0)
 
 
 def for_long_series(journal: Journal) -> Journal:

@@ -134,17 +134,22 @@ def solve_elastic_in_steps(
 
     Where asperities touch, the second comes first: it takes a third of the time.
     """
-    asked = film, force, position, tolerance, free
-    by_shell = None if film.contact is None else solve_by_stiffness(*asked)
-    if by_shell is not None and by_shell.converged:
-        return by_shell
+    asked, spent = (film, force, position, tolerance, free), 0
+    by_shell: Solution | None = None
+    if film.contact is not None:
+        by_shell = solve_by_stiffness(*asked)
+        spent += by_shell.iterations
+        if by_shell.converged:
+            return by_shell
     by_load = solve_in_load_steps(*asked)
+    spent += by_load.iterations
     if by_load.converged or film.clearance_left(by_load.position) <= APART:
-        return by_load
-    by_shell = by_shell or solve_by_stiffness(*asked)
-    spent = by_load.iterations + by_shell.iterations
-    if by_shell.converged or by_shell.residual < by_load.residual:
-        return replace(by_shell, iterations=spent)
+        return replace(by_load, iterations=spent)
+    if by_shell is None:
+        by_shell = solve_by_stiffness(*asked)
+        spent += by_shell.iterations
+        if by_shell.converged or by_shell.residual < by_load.residual:
+            return replace(by_shell, iterations=spent)
     film.relax()
     film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
     return replace(by_load, iterations=spent)
