@@ -49,3 +49,14 @@ def test_what_it_keeps_is_small_whole_and_of_no_machine(name):
         assert not [o for o in cell["outputs"] if o["output_type"] == "error"]
     assert "/home/" not in text
     assert "/tmp/" not in text
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_figure_of_it_is_a_picture_and_stands_there_once(name):
+    book = json.loads((FOLDER / f"{name}.ipynb").read_text(encoding="utf-8"))
+    for cell in book["cells"]:
+        shown = [o["data"] for o in cell.get("outputs", []) if "data" in o]
+        figures = [data for data in shown if "".join(data["text/plain"]).startswith("<Figure")]
+        assert all("image/png" in data for data in figures)
+        assert len(figures) <= 1
+        assert not any("".join(d["text/plain"]).startswith("<function") for d in shown)

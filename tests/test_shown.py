@@ -358,3 +358,8 @@ def test_every_film_knows_its_gap(keys):
     closed = BEARING.clearance - 7e-5 * np.cos(found.angle) - 3e-5 * np.sin(found.angle)
     grown = closed[:, None] + found.deformation
     assert np.allclose(found.gap, grown, rtol=0.02)
+
+
+def test_a_figure_is_a_picture_in_a_notebook_without_pyplot():
+    drawing, _ = plots.figure()
+    assert drawing._repr_png_().startswith(b"\x89PNG")

@@ -53,6 +53,13 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     return values * factor, unit
 
 
+class Drawing(Figure):
+    """A figure that a notebook shows, whether or not its reader has imported pyplot before."""
+
+    def _repr_png_(self) -> bytes:
+        return _png(self, dpi=72)
+
+
 def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) -> tuple[Figure, Any]:
     """Return a figure of page width in the common style, and its axes.
 
@@ -64,7 +71,7 @@ def figure(rows: int = 1, columns: int = 1, height: float = 2.1, **keys: Any) ->
     (2,)
     """
     with mpl.rc_context(STYLE):
-        drawing = Figure(figsize=(9.0, height * rows + 0.4))
+        drawing = Drawing(figsize=(9.0, height * rows + 0.4))
         axes = drawing.subplots(rows, columns, **keys)
     return drawing, axes
 
@@ -99,11 +106,15 @@ def to_png(drawing: Figure) -> str:
     >>> to_png(figure()[0])[:22]
     'data:image/png;base64,'
     """
+    return "data:image/png;base64," + base64.b64encode(_png(drawing)).decode()
+
+
+def _png(drawing: Figure, dpi: int = 110) -> bytes:
     buffer = io.BytesIO()
     with mpl.rc_context(STYLE):
         _laid_out(drawing)
-        drawing.savefig(buffer, format="png", dpi=110)
-    return "data:image/png;base64," + base64.b64encode(buffer.getvalue()).decode()
+        drawing.savefig(buffer, format="png", dpi=dpi)
+    return buffer.getvalue()
 
 
 NOTHING: dict[str, Any] = dict.fromkeys(("Creator", "Date", "Format", "Type"))
