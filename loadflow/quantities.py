@@ -51,6 +51,9 @@ READABLE = {
 }
 """Factor and unit in which an engineer reads each SI unit that the data hold."""
 
+CELSIUS = 273.15
+"""Temperature of 0 °C, K."""
+
 _SMALLER = {
     "N": ((1.0, "N"),),
     "N m": ((1e-3, "kN m"), (1.0, "N m")),

@@ -363,3 +363,11 @@ def test_every_film_knows_its_gap(keys):
 def test_a_figure_is_a_picture_in_a_notebook_without_pyplot():
     drawing, _ = plots.figure()
     assert drawing._repr_png_().startswith(b"\x89PNG")
+
+
+def test_temperatures_are_drawn_in_degrees_and_their_differences_in_kelvin():
+    warm = xr.DataArray([314.65, 348.15], name="largest_temperature", attrs={"units": "K"})
+    values, unit = plots.readable(warm)
+    assert unit == "°C"
+    np.testing.assert_allclose(values, [41.5, 75.0])
+    assert plots.readable(warm.rename("oil_rise"))[1] == "K"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from loadflow.quantities import CELSIUS
+
 Row = tuple[str, ...]
 Rows = tuple[Row, list[Row]]
 
@@ -28,7 +30,7 @@ def oils() -> Rows:
     rows: list[Row] = []
     for name in lubricant_names():
         oil = lubricant(name)
-        at = (oil.viscosity(celsius + 273.15) for celsius in (40.0, 70.0))
+        at = (oil.viscosity(celsius + CELSIUS) for celsius in (40.0, 70.0))
         rows.append((name, *(f"{1e3 * float(viscosity):.4g} mPa s" for viscosity in at)))
     return ("name", "at 40 °C", "at 70 °C"), rows
 

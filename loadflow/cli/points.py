@@ -11,6 +11,7 @@ import typer
 from loadflow.cli.base import AsJson, app, out, print_json, print_quantities, print_rows
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
+from loadflow.quantities import CELSIUS
 
 if TYPE_CHECKING:
     from loadflow.journal import Film, JournalBearing
@@ -157,7 +158,7 @@ def journal(
         viscosity=viscosity,
         heat={
             "oil": oil,
-            "inlet_temperature": inlet_temperature_c + 273.15,
+            "inlet_temperature": inlet_temperature_c + CELSIUS,
             "transfer": transfer,
         },
         law={
@@ -316,7 +317,7 @@ def rolling(
     lubrication = None
     if oil is not None:
         lubrication = Lubrication(
-            oil=lubricant(oil), temperature=temperature_c + 273.15, cleanliness=cleanliness
+            oil=lubricant(oil), temperature=temperature_c + CELSIUS, cleanliness=cleanliness
         )
     answer = rolling_point(
         *found, force, moment, speed=speed, lubrication=lubrication, inertia=inertia

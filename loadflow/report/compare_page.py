@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from loadflow.quantities import HOURS_PER_YEAR, percent
+from loadflow.quantities import CELSIUS, HOURS_PER_YEAR, percent
 from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
@@ -128,15 +128,15 @@ UNITS = {
     "m": (1e6, "µm"),
     "N": (1e-3, "kN"),
     "h": (1 / HOURS_PER_YEAR, "years"),
-    "K": (1.0, "K"),
 }
 """Factor and unit in which a verdict in SI units is shown."""
 
 
 def _verdict(verdict: Mapping[str, Any]) -> dict[str, str]:
     factor, unit = UNITS.get(verdict["unit"], (1.0, verdict["unit"]))
+    zero, unit = (CELSIUS, "°C") if unit == "K" else (0.0, unit)
     value, limit = (
-        "–" if verdict[key] is None else f"{short(factor * verdict[key])} {unit}".strip()
+        "–" if verdict[key] is None else f"{short(factor * (verdict[key] - zero))} {unit}".strip()
         for key in ("value", "limit")
     )
     sign = "≤" if verdict["sense"] == "at most" else "≥"

@@ -18,7 +18,7 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import fitting_unit, percent
+from loadflow.quantities import CELSIUS, fitting_unit, percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
@@ -250,14 +250,15 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     film = verdict.unit == "m" and size < _FILMS
     factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
     unit = "" if unit == "–" else unit
+    zero, scale = (CELSIUS, "°C") if unit == "K" else (0.0, unit)
     if np.isfinite(verdict.limit):
         sign = "≤" if verdict.sense == "at most" else "≥"
-        limit = f"{sign} {factor * verdict.limit:.4g} {unit}".rstrip()
+        limit = f"{sign} {factor * (verdict.limit - zero):.4g} {scale}".rstrip()
     if np.isfinite(verdict.time):
         at += f", {verdict.time:.1f} s"
     value, margin = (
-        "-" if np.isnan(number) else f"{factor * number:.4g} {unit}".rstrip()
-        for number in (verdict.value, verdict.margin)
+        "-" if np.isnan(number) else f"{factor * number:.4g} {one}".rstrip()
+        for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
     )
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
     return [verdict.subject, verdict.quantity, value, *said]

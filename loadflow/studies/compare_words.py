@@ -10,6 +10,7 @@ from typing import Any
 import xarray as xr
 
 from loadflow.data import evidence
+from loadflow.quantities import CELSIUS
 from loadflow.scene.places import WRITTEN
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_quantities import QUANTITIES
@@ -121,7 +122,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         ),
         "References behind the loads": references(["loads"]),
         "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
-        f"{scene.friction.temperature - 273.15:.0f} °C, {scene.friction.cleanliness}",
+        f"{scene.friction.temperature - CELSIUS:.0f} °C, {scene.friction.cleanliness}",
     }
 
 

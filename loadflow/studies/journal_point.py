@@ -13,7 +13,7 @@ import xarray as xr
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.rungs import RUNGS
-from loadflow.quantities import GRID_ERROR, table
+from loadflow.quantities import CELSIUS, GRID_ERROR, table
 
 if TYPE_CHECKING:
     from loadflow.journal import Film, JournalBearing
@@ -193,6 +193,6 @@ def _model(film: Film) -> str:
     if film.shell is not None:
         words.append(f"{film.shell.kind} shell")
     if film.heat is not None:
-        oil, inlet = film.heat.oil, film.heat.inlet_temperature - 273.15
+        oil, inlet = film.heat.oil, film.heat.inlet_temperature - CELSIUS
         words.append(f"{oil} enters at {inlet:g} °C, heat balance")
     return "; ".join(words)

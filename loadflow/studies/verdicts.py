@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 import xarray as xr
 
-from loadflow.quantities import load_cases
+from loadflow.quantities import CELSIUS, load_cases
 from loadflow.rolling.rating.static import (
     HOURS_20_YEARS,
     LIFE_SOURCE,
@@ -271,7 +271,7 @@ def _of_material(
     time: float, note: str, section: str,
 ) -> Verdict:  # fmt: skip
     """Hold a pressure against the material of the shell."""
-    points = ", ".join(f"{p / 1e6:g} MPa at {t - 273.15:.0f} °C" for t, p in limits.material)
+    points = ", ".join(f"{p / 1e6:g} MPa at {t - CELSIUS:.0f} °C" for t, p in limits.material)
     return Verdict(
         subject, what, value, limits.pressure_at(_warm(table, case)), "at most", "Pa",
         _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,

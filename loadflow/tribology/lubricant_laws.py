@@ -18,11 +18,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.numerics.fields import check_one_of
+from loadflow.quantities import CELSIUS
 from loadflow.tribology import lubricant_states as states
 
 Array = NDArray[np.float64]
 
-CELSIUS = 273.15
 _MM2 = 1e6  # m²/s in mm²/s
 # Gold: α = s ν^t with ν in mm²/s and α in 1e-9/Pa
 GOLD = {

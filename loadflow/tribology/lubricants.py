@@ -14,9 +14,10 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice, check_fields, not_one_of
+from loadflow.quantities import CELSIUS
 from loadflow.tribology import lubricant_laws as laws
 from loadflow.tribology import lubricant_states as states
-from loadflow.tribology.lubricant_laws import CELSIUS, Array
+from loadflow.tribology.lubricant_laws import Array
 
 PRESSURE_LAWS = {"roelands": states.roelands_state, "barus": states.barus_state}
 
