@@ -30,6 +30,7 @@ PAGE = ROOT / "docs" / "hard-cases.md"
 FAMILIES = {
     "cylinder": "cylinder",
     "shaped": "arcs, lobes, tilting pads, relief",
+    "pads": 'tilting pads, a third each crowned, tilted, on "reduced"',
     "supply": "supply",
     "line": "tilt, moment, bend",
     "shell": "elastic shells",
