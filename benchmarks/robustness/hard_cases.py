@@ -16,7 +16,7 @@ from benchmarks.robustness import kept
 from loadflow.quantities import percent
 
 HARD = ROOT / "tests" / "hard"
-sys.path.insert(0, str(HARD))  # the cases are those of the tests
+sys.path[:0] = [str(HARD), str(HARD.parent)]  # the cases are those of the tests
 
 import friction_cases  # noqa: E402, F401
 import journal_cases  # noqa: E402, F401
