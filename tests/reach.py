@@ -57,6 +57,15 @@ class Module:
                 self.parts[BODY].append(node)
 
     @property
+    def methods(self):
+        """Class and name of the methods and properties without an underscore before either."""
+        for name, parts in self.parts.items():
+            for made in (p for p in parts if isinstance(p, ast.ClassDef) and name[:1] != "_"):
+                for inner in made.body:
+                    if isinstance(inner, ast.FunctionDef) and inner.name[:1] != "_":
+                        yield name, inner.name
+
+    @property
     def public(self):
         """Functions and classes without an underscore before their name."""
         for name, parts in self.parts.items():
@@ -108,6 +117,7 @@ class Package:
     uses: dict = field(default_factory=dict)
     asked: dict = field(default_factory=dict)
     handed: dict = field(default_factory=dict)
+    texts: dict = field(default_factory=dict)
 
     @classmethod
     def at(cls, folder):
@@ -164,6 +174,7 @@ class Package:
             reading = Reading(self, module)
             self.uses[place] = reading.of(module.parts.get(place[1], ())) | self.registered[place]
             self.asked[place], self.handed[place] = reading.asked, reading.handed
+            self.texts[place] = reading.texts
         return self.uses[place]
 
     def reached(self, places):
@@ -184,6 +195,12 @@ class Package:
             waiting = [p for p in of_modules - seen if p[1] in attributes]
         return seen
 
+    def fields_asked(self, places):
+        """Attributes that some places ask for, and texts that may name one (``getattr``)."""
+        for place in places:
+            self.used_by(place)
+        return set().union(*(self.asked[place] | self.texts[place] for place in places))
+
     def reached_by(self, scripts):
         """Places of the package that scripts reach, such as the blocks of a page."""
         made = {f"<{k}>": Module(f"<{k}>", ast.parse(text)) for k, text in enumerate(scripts)}
@@ -197,7 +214,8 @@ class Reading(ast.NodeVisitor):
 
     def __init__(self, package, module):
         self.package, self.module = package, module
-        self.scopes, self.found, self.asked, self.handed = [], set(), set(), set()
+        self.scopes, self.found, self.handed = [], set(), set()
+        self.asked, self.texts = set(), set()
 
     def of(self, statements):
         for node in statements:
@@ -281,6 +299,7 @@ class Reading(ast.NodeVisitor):
     def visit_Constant(self, node):
         if isinstance(node.value, str):
             self.place(node.value)
+            self.texts |= {node.value} if node.value.isidentifier() else set()
 
     def visit_JoinedStr(self, node):
         self.place("".join(map(self.text, node.values)))

@@ -9,6 +9,7 @@ import ast
 import json
 import re
 from functools import cache
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -53,6 +54,22 @@ def reached():
     return by_users, package().reached(asked) - by_users
 
 
+@cache
+def asked():
+    """Names that users ask of an object: in code that they reach, in scripts and templates."""
+    nodes = (node for text in scripts() for node in ast.walk(ast.parse(text)))
+    in_scripts = {node.attr for node in nodes if isinstance(node, ast.Attribute)}
+    pages = (FOLDER / "report" / "templates").glob("*.html")
+    in_pages = {w for page in pages for w in re.findall(r"\w+", page.read_text(encoding="utf-8"))}
+    return package().fields_asked(reached()[0]) | in_scripts | in_pages
+
+
+def is_of_another_package(module, cls, method):
+    """Whether a base of a class that is not ours has the method: it is called from there."""
+    bases = getattr(import_module(module), cls).__mro__
+    return any(method in vars(b) for b in bases if not b.__module__.startswith("loadflow"))
+
+
 def lost(found, modules):
     """Public names of modules that are not among the places found."""
     return {
@@ -67,6 +84,17 @@ def test_every_public_name_is_reached_by_a_user():
     modules = [m for m in package().modules.values() if m.name.rpartition(".")[2] not in FORMER]
     rooms = [m for m in modules if not m.name.startswith("loadflow.validation")]
     assert lost(reached()[0], rooms) == set()
+
+
+def test_every_method_of_a_class_that_is_reached_is_asked_for():
+    methods = {
+        (module.name, cls, name)
+        for module in package().modules.values()
+        if module.name.rpartition(".")[2] not in FORMER
+        for cls, name in module.methods
+        if (module.name, cls) in reached()[0] and name not in asked()
+    }
+    assert {one for one in methods if not is_of_another_package(*one)} == set()
 
 
 def test_every_name_of_the_validation_is_reached_by_one_of_its_tables():
@@ -154,3 +182,12 @@ def test_a_name_of_a_room_is_that_of_the_module_it_comes_from():
     stubs = {"package.room": {"used": ("package.room.inside", "used")}}
     found = Package(made, stubs).reached_by(["from package.room import used\nused()\n"])
     assert ("package.room.inside", "used") in found
+
+
+def test_a_method_that_nobody_asks_for_is_seen():
+    text = "def main():\n    Made().asked()\n\n"
+    text += "class Made:\n    def asked(self): ...\n    def lost(self): ...\n"
+    made = Module("package", ast.parse(text), True)
+    whole = Package({"package": made})
+    fields = whole.fields_asked(whole.reached({("package", "main")}))
+    assert [name for _, name in made.methods if name not in fields] == ["lost"]
