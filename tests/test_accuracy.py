@@ -9,10 +9,10 @@ from synthetic import cube_file
 import loadflow as lf
 from loadflow.cli import main
 from loadflow.planning.accuracy import expected_errors
-from loadflow.planning.ladder import expected_seconds, gains, ladder, rung_of
+from loadflow.planning.ladder import expected_seconds, gains, ladder
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
-from loadflow.stages.registry import STAGES, giving
+from loadflow.stages.registry import STAGES, giving, models
 
 
 def scene_of(**keys):
@@ -113,7 +113,7 @@ def test_an_accuracy_out_of_reach_is_said_and_the_best_is_taken():
         for name, entry in ladder()["journal, transient"].items()
         if "settings" in entry
     }
-    assert rung_of(plan.scene, "journal") == min(worst, key=worst.__getitem__)
+    assert models()["journal"].text_of(plan.scene) == min(worst, key=worst.__getitem__)
 
 
 def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_models():
@@ -127,7 +127,7 @@ def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_m
     assert set(unknown.errors["journal.film"].values()) == {None}
     assert None not in unknown.errors["rolling.life"].values()
     for stage in ("wind", "loads", "rolling"):
-        assert rung_of(unknown.scene, stage) == rung_of(loose.scene, stage)
+        assert models()[stage].text_of(unknown.scene) == models()[stage].text_of(loose.scene)
     assert "by the errors that are known" in unknown.reasons["loads"]
 
 
@@ -226,7 +226,7 @@ def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_
     """A bearing far from that of the ladder: its coarse film does not hold what the ladder says."""
     hard = {"geometry": {"diameter": 1.0, "width": 0.4, "relative_clearance": 1e-3}}
     scene = given(cube, accuracy=0.06, journal=hard | {"bearings": ["N2"]})
-    assert rung_of(make_plan(scene).scene, "journal") == "reduced, 60, 0.05 s"
+    assert models()["journal"].text_of(make_plan(scene).scene) == "reduced, 60, 0.05 s"
     run = lf.run(scene, out=tmp_path, report=False)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["refined"][0] == "journal"

@@ -10,6 +10,7 @@ import numpy as np
 from numba import njit
 
 from benchmarks.common import arguments, head, row, seconds_of, timed
+from benchmarks.peers.roller_moment import roller_moment
 from loadflow.rolling import FrictionOptions, RollerBearing, roller_friction
 from loadflow.rolling import friction as parts
 from loadflow.rolling.motion import _coulomb_kernels, _motion_kernels
@@ -58,7 +59,7 @@ def euler_film(film, times, surface, turning, swing, load, outward, tangential, 
                 a = _motion_kernels._between(
                     surface, turning, swing, load, outward, tangential, i, j, k / parts
                 )
-                w += h / film.inertia * _motion_kernels.roller_moment(film, *a, w)
+                w += h / film.inertia * roller_moment(film, *a, w)
                 w = min(max(w, 0.0), 0.999 * a[0] / film.radius)
             spin[i + 1, j] = w
     return spin
@@ -161,7 +162,7 @@ def lsoda_rate(numbers, given):
         a = _motion_kernels._between(
             surface, turning, swing, load, outward, tangential, i, j, share
         )
-        return _motion_kernels.roller_moment(numbers, *a, w) / numbers.inertia
+        return roller_moment(numbers, *a, w) / numbers.inertia
 
     rate(0.0, 1.0, 0, *given)
     return lambda t, w, j: [rate(t, w[0], j, *given)]

@@ -57,6 +57,8 @@ def main(folder, seeds, winds, lateral):
         print(f"\n{wind} m/s, kN and kN m, {seeds} seeds / {len(files)} of OpenFAST")
         print(f"{'':28s}{'ours':>10s}{'OpenFAST':>10s}   ratio              at their hub wind")
         for channel, measures in ours.items():
+            if channel not in theirs:  # what a cube of files does not hold
+                continue
             for name, values in measures.items():
                 other = theirs[channel][name]
                 print(

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from benchmarks.common import arguments
-from loadflow.rolling import reference_equilibrium
+from benchmarks.references.whole_rings import reference_equilibrium
 from loadflow.validation._slewing_cases import DRIVE
 from loadflow.validation.rings import UNCONDENSED, drive_rings
 

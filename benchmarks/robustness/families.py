@@ -21,6 +21,9 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 - cylinder: rigid, aligned.
 - shaped: partial arcs of 90 … 300° that the load meets, 1 … 6 lobes, 3 … 6 tilting pads, preload
   0 … 0.7; a third of them crowned, recessed or out of round by up to 0.3 c.
+- pads: 3 … 8 tilting pads that leave 0.05 … 0.5 of the circle free, pivots at 0.4 … 0.7 of a pad,
+  preload 0 … 0.7, the load on a pad, between two or anywhere; a third crowned by up to 0.3 c, a
+  third under a tilt of up to 0.5 c at the ends; 1 in 3 "reduced" on 60 × 8 cells.
 - supply: 1 … 3 grooves or pockets under pressure or behind restrictors, or fed by a pump.
 - line: tilt of up to 0.8 c at the bearing's ends, moment of up to F B/5, bend of up to 0.5 c.
 - shell: elastic shells whose growth under the mean pressure is 1e-3 … 3 clearances.
@@ -91,7 +94,7 @@ REASONS = ("touches", "carries no load", "starved", "carries no more", "half-spe
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
 REASONS += ("no heat balance below 423.15 K; at 423", "no heat balance: at")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
-SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12}
+SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12, "pads": 13}
 
 
 @dataclass
@@ -193,6 +196,27 @@ def shaped(point: Point) -> Callable[[], Any]:
             Contour(around.tolist(), waves.tolist()),
         ]
         point.shape["relief"] = (reliefs[rng.integers(3)],)
+    return point.solve
+
+
+def pads(point: Point) -> Callable[[], Any]:
+    """Tilting pads, whole or crowned, around a shaft that may tilt."""
+    rng, count = point.rng, int(point.rng.integers(3, 9))
+    arc = rng.uniform(0.5, 0.95) * 2 * np.pi / count
+    beside = (0.0, np.pi / count, rng.uniform(-np.pi, np.pi))[rng.integers(3)]
+    shape = TiltingPads(
+        count, arc, rng.uniform(0, 0.7), point.angle + beside, rng.uniform(0.4, 0.7)
+    )
+    point.shape = {"shape": shape}
+    if rng.random() < 1 / 3:
+        crown = Crown(point.gap * rng.uniform(0.01, 0.3), exponent=rng.uniform(1, 3))
+        point.shape["relief"] = (crown,)
+    if rng.random() < 1 / 3:
+        way = rng.uniform(-np.pi, np.pi)
+        lean = rng.uniform(0, 0.5) * point.gap / (0.5 * point.width)
+        point.film["tilt"] = lean * np.array([np.cos(way), np.sin(way)])
+    if rng.random() < 1 / 3:
+        point.film |= {"rung": "reduced", "grid": (60, 8)}
     return point.solve
 
 
@@ -382,6 +406,7 @@ def orbit(point: Point) -> Callable[[], Any]:
 FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "cylinder": cylinder,
     "shaped": shaped,
+    "pads": pads,
     "supply": supply,
     "line": line,
     "shell": shell,

@@ -17,13 +17,7 @@ from loadflow.stages.effects.registry import EFFECTS, effects_of
 from loadflow.stages.registry import STAGES, models
 from loadflow.stages.stage import STEPS_PER_CASE, Rungs, Stage
 
-__all__ = ["STEPS_PER_CASE", "expected_seconds", "gains", "ladder", "measured", "rung_of"]
-
-
-def rung_of(scene: Scene, model: str) -> str:
-    """Return the rung that the scene chooses for a model, as a plan prints it."""
-    known = models().get(model)
-    return known.text_of(scene) if known else "-"
+__all__ = ["STEPS_PER_CASE", "expected_seconds", "gains", "ladder", "measured"]
 
 
 def measured(scene: Scene, model: str, key: str | None = None) -> dict[str, Any] | None:

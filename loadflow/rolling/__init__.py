@@ -13,7 +13,7 @@
 `mounting`        fits and temperatures of the rings: clearance at work
 `rings`           flexible rings: beams, finite elements, given matrices, condensed; dynamics
 `rating`          capacities, rating life, modified life, static safety
-`friction`        components of friction with an energy audit, catalogues, slewing bearings
+`friction`        components of friction, catalogues, slewing bearings
 `motion`          kinematics, slip and inertia of rolling elements, crank drive, cage
 `stiffness`       6 × 6 stiffness in closed form, films and damping, rotor coefficients
 ================  ============================================================================

@@ -64,7 +64,6 @@ from .rings.meshed import MeshedRing as MeshedRing
 from .rings.patches import patch_points as patch_points
 from .rings.patches import raceway_points as raceway_points
 from .rings.profile import RingProfile as RingProfile
-from .rings.reference import reference_equilibrium as reference_equilibrium
 from .rings.section import RingSection as RingSection
 from .rings.section import Support as Support
 from .rings.section import legs as legs

@@ -12,6 +12,9 @@ from loadflow.errors import InputError
 from loadflow.former_names import renamed
 from loadflow.numerics.fields import check_one_of
 
+_ROUNDING = 1e-9
+"""Of the length of a shaft, by which the sum of its sections may miss it."""
+
 
 @dataclass(frozen=True)
 class ShaftSection:
@@ -190,10 +193,12 @@ class Beam:
         """
         found, start = [], 0.0
         for section in self.sections:
-            stop = end if section.length is None else min(start + section.length, end)
+            stop = end if section.length is None else start + section.length
+            if stop > end * (1 - _ROUNDING):  # lengths add up to the shaft's but for rounding
+                stop = end
             if stop > start:
                 found.append((start, stop, section))
             start = stop
-        if start < end * (1 - 1e-12):
+        if start < end:
             raise InputError(f"sections reach to {start:g} m, the shaft to {end:g} m")
         return found

@@ -9,7 +9,7 @@ bearing are not printed, and are assumed where they stand.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
@@ -309,10 +309,3 @@ class CrankRig:
             omega, 17.5e-3, self.seal_force, 0.3, viscosity=self.viscosity, width_ratio=122
         )
         return FrictionTorque({"seal": float(torque) * omega}, omega)
-
-
-def uneven(bearing: RowOnRig, share: float = 0.5) -> RowOnRig:
-    """The row with pockets that are narrower by `share` on one side and wider on the other."""
-    left, right = bearing.gaps.pocket_gaps
-    pair = left * (1 - share), right * (1 + share)
-    return replace(bearing, gaps=replace(bearing.gaps, pocket_gaps=pair))

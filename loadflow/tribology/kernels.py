@@ -314,29 +314,3 @@ def contact_table(film_parameter: Array) -> Array:
         table[0, i], table[1, i] = pressure_integral(film_parameter[i])
         table[2, i], table[3, i] = area_integral(film_parameter[i])
     return table
-
-
-@njit(cache=True, nogil=True)
-def worn_depth(worn: float, steady: float, depth: float, excess: float) -> Pair:
-    """Worn depth after a step of `loadflow.tribology.wear.RunningIn`, m, and its derivative.
-
-    `steady` is the depth that the law wears off in the step when run in; the derivative is with
-    respect to it, so that dd/dp follows from the law.
-    """
-    growth = (excess - 1.0) * math.exp(-worn / depth)
-    fall = -math.expm1(-steady / depth)
-    total = 1.0 + growth * fall
-    return worn + steady + depth * math.log(total), 1.0 + growth * (1.0 - fall) / total
-
-
-@njit(cache=True, nogil=True)
-def boundary_stress(
-    pressure: float, sliding: float, coefficient: float, reference: float
-) -> tuple[float, float, float]:
-    """Stress of `loadflow.tribology.boundary.boundary_stress`, Pa, and its two derivatives.
-
-    The derivatives are those with respect to the pressure and to the sliding speed.
-    """
-    turn = math.tanh(sliding / reference)
-    rise = coefficient * turn
-    return rise * pressure, rise, coefficient * pressure * (1.0 - turn * turn) / reference

@@ -126,57 +126,6 @@ def andrade_steepness(
     return np.asarray(scale / np.asarray(temperature, float) ** 2)
 
 
-def barus(viscosity: ArrayLike, coefficient: ArrayLike, pressure: ArrayLike) -> Array:
-    """Viscosity η₀ exp(α p) under pressure, Pa s, (5.52).
-
-    Far too high above about 0.5 GPa; huge rather than an error where it overflows.
-
-    Examples
-    --------
-    >>> round(float(barus(0.1, 2e-8, 1e8)), 5)
-    0.73891
-    """
-    eta, alpha, p = (np.asarray(x, float) for x in (viscosity, coefficient, pressure))
-    return np.asarray(states.barus_state(eta, 0.0, alpha, 0.0, p)[0])
-
-
-def roelands(viscosity: ArrayLike, coefficient: ArrayLike, pressure: ArrayLike) -> Array:
-    """Viscosity under pressure after Roelands, Pa s; its slope at p = 0 is that of Barus.
-
-    Parameters
-    ----------
-    viscosity : array_like
-        At ambient pressure, Pa s.
-    coefficient : array_like
-        α of Barus, 1/Pa.
-    pressure : array_like
-        Pa.
-
-    Examples
-    --------
-    >>> round(float(roelands(0.1, 2e-8, 1e8)), 5)
-    0.60926
-    """
-    eta, alpha, p = (np.asarray(x, float) for x in (viscosity, coefficient, pressure))
-    return np.asarray(states.roelands_state(eta, 0.0, alpha, 0.0, p)[0])
-
-
-def density(
-    temperature: ArrayLike, reference: float, reference_temperature: float = 15 + CELSIUS
-) -> Array:
-    """Density at ambient pressure, kg/m³, falling by 0.605 kg/m³ each K, (5.59).
-
-    Von Hollen prints the slope in N s/mm²; N s²/mm⁴ is meant.
-
-    Examples
-    --------
-    >>> round(float(density(333.15, 880.0)), 2)
-    852.77
-    """
-    t = np.asarray(temperature, float)
-    return np.asarray(states.density_state(t, 0.0, reference, reference_temperature)[0])
-
-
 def bulk_modulus(pressure: ArrayLike) -> Array:
     """Bulk modulus ρ dp/dρ of the compression after Dowson and Higginson, Pa.
 

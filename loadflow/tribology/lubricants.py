@@ -118,13 +118,8 @@ class Oil:
 
     def density(self, temperature: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
         """Density at `temperature` (K) and `pressure` (Pa), kg/m³."""
-        return self._density(temperature, pressure)[0]
-
-    def density_slopes(
-        self, temperature: ArrayLike, pressure: ArrayLike = 0.0
-    ) -> tuple[Array, Array]:
-        """Derivatives of the density, ∂ρ/∂T in kg/(m³ K) and ∂ρ/∂p in kg/(m³ Pa)."""
-        return self._density(temperature, pressure)[1:]
+        t, p = np.asarray(temperature, float), np.asarray(pressure, float)
+        return np.asarray(states.density_state(t, p, self.density_15, 15 + CELSIUS)[0])
 
     def viscosity(self, temperature: ArrayLike, pressure: ArrayLike = 0.0) -> Array:
         """Dynamic viscosity at `temperature` (K) and `pressure` (Pa), Pa s."""
@@ -149,12 +144,6 @@ class Oil:
         found = law(nu * rho, nu_t * rho + nu * rho_t, alpha, alpha_t, p)
         eta, eta_t, eta_p = (np.asarray(x) for x in found)
         return eta, eta_t, eta_p
-
-    def _density(self, temperature: ArrayLike, pressure: ArrayLike) -> tuple[Array, Array, Array]:
-        """ρ and its derivatives by temperature and pressure."""
-        t, p = np.asarray(temperature, float), np.asarray(pressure, float)
-        rho, rho_t, rho_p = states.density_state(t, p, self.density_15, 15 + CELSIUS)
-        return np.asarray(rho), rho_t + np.zeros_like(t), np.asarray(rho_p)
 
     def pressure_viscosity(self, temperature: ArrayLike) -> Array:
         """Pressure–viscosity coefficient α_p at `temperature` (K), 1/Pa."""
@@ -253,13 +242,6 @@ class ExponentialOil:
         return np.full(
             np.broadcast_shapes(np.shape(temperature), np.shape(pressure)), self.reference_density
         )
-
-    def density_slopes(
-        self, temperature: ArrayLike, pressure: ArrayLike = 0.0
-    ) -> tuple[Array, Array]:
-        """Derivatives of the density by temperature and pressure: none."""
-        nothing = 0.0 * self.density(temperature, pressure)
-        return nothing, nothing
 
     def steepness(self, temperature: ArrayLike) -> Array:
         """Steepness β = -d(ln η)/dT, 1/K, constant."""

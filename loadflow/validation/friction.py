@@ -20,15 +20,14 @@ from loadflow.rolling.friction import roller_drag as drag
 from loadflow.rolling.motion.crank import CrankDrive
 from loadflow.rolling.motion.kinematics import common_period, contact_speeds, ideal_speeds
 from loadflow.rolling.motion.radial_load import LineLaw, behw_law, radial_distribution
-from loadflow.rolling.stiffness.contact_films import richter_plate, richter_printed
-from loadflow.rolling.stiffness.lim_singh import lim_singh_ball, lim_singh_roller
+from loadflow.rolling.stiffness.contact_films import richter_plate
 from loadflow.tribology import contact_film as film
 from loadflow.tribology import lubricant, traction
 from loadflow.tribology import lubricant_laws as laws
 from loadflow.tribology.asperities import combined_roughness, film_parameter, greenwood_tripp
 from loadflow.tribology.film import butenschoen, butenschoen_squeeze
 from loadflow.tribology.hertz import effective_modulus, hertz_line
-from loadflow.validation import _friction_motion
+from loadflow.validation import _friction_motion, _lim_singh
 from loadflow.validation.check import Check, evidence
 
 RPM = math.pi / 30
@@ -74,7 +73,7 @@ def checks() -> Iterator[Check]:
     yield from _asperities()
     yield from _harris_film()
     yield from _film_dynamics()
-    yield from _tangent()
+    yield from _lim_singh.checks()
     yield from _friction_motion.checks(MAIN)
 
 
@@ -384,34 +383,15 @@ def _harris_film() -> Iterator[Check]:
 
 @evidence("closed form")
 def _film_dynamics() -> Iterator[Check]:
-    """Richter's plate, case A12: the complex form against numbers and the printed real form."""
+    """Richter's plate, case A12: the complex form against numbers of the printed real form."""
     for eta, omega, stiffness, damping in (
         (30.0, 100.0, 7.045323e8, 1.838292e7), (0.03, 6283.0, 3.199633e6, 2.110757e4),
     ):  # fmt: skip
         args = (1.5e9, 11e-3, 100e-6, 0.5e-6, eta, omega)
-        plate, printed = complex(richter_plate(*args)), richter_printed(*args)
+        plate = complex(richter_plate(*args))
         source = f"Kruk (2.5)–(2.10), η = {eta:g} Pa s"
-        for name, expected, real, got, unit in (
-            ("k_pl", stiffness, printed[0], plate.real, "N/m"),
-            ("d_pl", damping, printed[1], plate.imag / omega, "N s/m"),
+        for name, expected, got, unit in (
+            ("k_pl", stiffness, plate.real, "N/m"),
+            ("d_pl", damping, plate.imag / omega, "N s/m"),
         ):
-            for form, ours in (("complex", got), ("printed", real)):
-                label = f"{name}, {form} form"
-                yield Check(label, f"{source}, rebuilt", expected, ours, 1e-6, unit=unit)
-
-
-@evidence("consistency")
-def _tangent() -> Iterator[Check]:
-    """Lim and Singh's stiffness against differences of their own forces, case A13."""
-    azimuth = 2 * np.pi * np.arange(9) / 9
-    ball, roller = (32.5e-3, 1e10, 0.5e-3, 0.4, 1e-6), (32.5e-3, 1e9, 0.3, 1e-6)
-    steps, q = (2e-10, 2e-10, 2e-10, 1e-8, 1e-8), np.array([2e-5, 5e-6, 1e-5, 1e-4, -2e-4])
-    for name, row, args in (("ball", lim_singh_ball, ball), ("roller", lim_singh_roller, roller)):
-        exact = row(q, azimuth, *args).stiffness
-        for i, j in ((0, 0), (0, 2), (1, 3), (2, 2), (3, 3), (4, 4)):
-            change = np.eye(5)[j] * steps[j]
-            up, down = (row(q + s * change, azimuth, *args).loads for s in (1, -1))
-            got = float(up[i] - down[i]) / (2 * steps[j])
-            source = "differences of our own forces"
-            name_of = f"k_{i + 1}{j + 1} by Lim and Singh, {name}"
-            yield Check(name_of, source, got, float(exact[i, j]), 1e-6)
+            yield Check(name, f"{source}, rebuilt", expected, got, 1e-6, unit=unit)

@@ -18,12 +18,20 @@ import numpy as np
 from loadflow.journal import JournalBearing
 from loadflow.rolling.friction import seal_torque
 from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
-from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, uneven
+from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, RowOnRig
 
 from .check import Check, evidence
 
 _MASSES = "the share of the load's losses follows the masses of the crank, which are not printed"
 _FAST, _SLOW = 6000.0, 500.0
+
+
+def _uneven(bearing: RowOnRig, share: float = 0.5) -> RowOnRig:
+    """The row with pockets that are narrower by `share` on one side and wider on the other."""
+    left, right = bearing.gaps.pocket_gaps
+    pair = left * (1 - share), right * (1 + share)
+    return replace(bearing, gaps=replace(bearing.gaps, pocket_gaps=pair))
+
 
 # what is changed, of which bearing, printed change in %, tolerance in points, why refused
 _STUDY = (
@@ -33,8 +41,8 @@ _STUDY = (
     ("μ′ 0.04 → 0.06", {"sliding": 0.06}, "pin", 20.0, 5.0, _MASSES),
     ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "main", 16.0, 5.0, _MASSES),
     ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "pin", 14.0, 5.0, ""),
-    ("s₃ uneven by half", {"main": uneven(MAIN)}, "main", 8.5, 3.0, ""),
-    ("s₃ uneven by half", {"pin": uneven(PIN)}, "pin", 3.5, 3.0, ""),
+    ("s₃ uneven by half", {"main": _uneven(MAIN)}, "main", 8.5, 3.0, ""),
+    ("s₃ uneven by half", {"pin": _uneven(PIN)}, "pin", 3.5, 3.0, ""),
     ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 0.0, 2.0, ""),
     ("clearance 25 → 0 μm", {"pin": replace(PIN, clearance=0.0)}, "pin", 0.0, 2.0, ""),
     ("90 → 60 °C", {"temperature": 333.15}, "main", 96.0, 20.0, ""),
@@ -44,7 +52,7 @@ _STUDY = (
 _MODEST, _QUICK = 1000.0, 3000.0
 _SLIP = "(5.104)–(5.109) leave out what the rollers lose by slip; without it, stage 2 loses less"
 _FILM_STUDY: tuple[tuple[str, dict[str, Any], str, float, float, str], ...] = (
-    ("s₃ uneven by half", {"main": uneven(MAIN)}, "main", 3.5, 1.0, ""),
+    ("s₃ uneven by half", {"main": _uneven(MAIN)}, "main", 3.5, 1.0, ""),
     ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 7.0, 3.0, ""),
     (
         "clearance 25 → 0 μm", {"pin": replace(PIN, clearance=0.0)}, "pin", 35.5, 17.5,

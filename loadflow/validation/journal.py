@@ -166,19 +166,20 @@ def friction_checks() -> Iterator[Check]:
 def closed_form_checks() -> Iterator[Check]:
     """Short and long bearings; what is left is the loss at the ends (about 0.7 D/B)."""
     from loadflow.journal import Guembel, Reynolds, Sommerfeld
-    from loadflow.tribology import film as closed
+    from loadflow.tribology.film import short_bearing
+    from loadflow.validation._long_bearing import long_bearing, long_bearing_ruptured
 
     for ratio in (0.3, 0.6, 0.9):
         so, beta = rotation(0.02, ratio, Guembel(), inlet=None)
-        expected, attitude = closed.short_bearing(ratio, 0.02)
+        expected, attitude = short_bearing(ratio, 0.02)
         yield Check(f"So, B/D = 0.02, ε = {ratio}", "Ocvirk", float(expected), so, 0.005)
         angle = float(np.degrees(attitude))
         yield Check(f"β, B/D = 0.02, ε = {ratio}", "Ocvirk", angle, beta, 0.05, "absolute", "°")
         so, _ = rotation(200.0, ratio, Sommerfeld())
-        number = float(closed.long_bearing(ratio))
+        number = float(long_bearing(ratio))
         yield Check(f"So, B/D = 200, ε = {ratio}", "Sommerfeld", number, so, 0.005)
         so, beta = rotation(200.0, ratio, Reynolds())
-        number, turn, _ = closed.long_bearing_ruptured(ratio)
+        number, turn, _ = long_bearing_ruptured(ratio)
         name = "long bearing with rupture"
         yield Check(f"So, B/D = 200, ε = {ratio}", name, number, so, 0.005)
         angle = float(np.degrees(turn))

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from . import _turbulent_series
 from ._load_series import SWINGING, channels
 from .check import Check, evidence
 
@@ -118,6 +119,7 @@ def checks() -> Iterator[Check]:
     yield from _iea()
     yield from _start()
     yield from _turbulent()
+    yield from _turbulent_series.checks()
 
 
 def _three_per_revolution() -> Iterator[Check]:

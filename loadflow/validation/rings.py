@@ -105,22 +105,23 @@ def printed() -> Iterator[Check]:
 def _closed_forms() -> Iterator[Check]:
     """Thin rings against textbook formulas."""
     radius, modulus = 0.5, 210e9
-    section = RingSection.rectangle(0.002, 0.002)
-    ring = RingBeam(section=section, radius=radius, harmonics=100)
+    ring = RingBeam(section=RingSection.rectangle(0.002, 0.002), radius=radius, harmonics=100)
     matrix = _compliance(ring, np.array([0, math.pi]), radius, 0.0)
     opening = matrix[:, 0, :, 0].sum()
-    thin = radius**3 / (modulus * section.inertia_axial) * (math.pi / 4 - 2 / math.pi)
+    thin = radius**3 / (modulus * 0.002**4 / 12) * (math.pi / 4 - 2 / math.pi)
     yield Check("pinched thin ring, opening", "P R³/(E I) (π/4 - 2/π)", thin, opening, 1e-4,
                 unit="m/N")  # fmt: skip
-    tall = RingSection.rectangle(0.02, 0.05)
-    ring = RingBeam(section=tall, radius=radius, harmonics=8)
+    width, tall = 0.02, 0.05
+    area, inertia_axial = width * tall, tall * width**3 / 12
+    inertia_radial = width * tall**3 / 12
+    ring = RingBeam(section=RingSection.rectangle(width, tall), radius=radius, harmonics=8)
     around = 2 * math.pi * np.arange(32) / 32
     for height in (0.0, 0.025):
         matrix = _compliance(ring, around, radius, height)
         moved = matrix[:, 0, :, 0].sum(axis=1).mean() * 2 * math.pi * radius / 32
-        bends = 1 + tall.inertia_axial / (tall.area * radius**2)  # a wider ring is less curved
-        stretch = radius**2 / (modulus * tall.area * bends)
-        twist = height**2 * radius**2 / (modulus * tall.inertia_radial)
+        bends = 1 + inertia_axial / (area * radius**2)  # a wider ring is less curved
+        stretch = radius**2 / (modulus * area * bends)
+        twist = height**2 * radius**2 / (modulus * inertia_radial)
         yield Check(f"uniform radial load {height * 1e3:g} mm off the centroid",
                     "q R²/(E A) (1 + I_a/A R²)⁻¹ + q e² R²/(E I_r)", stretch + twist, moved,
                     1e-9,

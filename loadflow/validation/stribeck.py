@@ -6,9 +6,9 @@ each; measured is the moment of the shaft on all three. Given: sizes, oil, K = 0
 bearings, constant viscosity, the law of Reynolds with oil at edge pressure at the widest gap,
 asperities of the combined R_q, as the gap is that of the mean planes of all heights; no flow
 factors. Both roughnesses were tried: with the combined σ of the summits the speeds of the least
-moment are 335 and 207 1/min, outside what is allowed. `elastic_moments` has what the source says
-of surfaces and oil, and rings that give way (``python -m benchmarks.references.missed rig``, which
-takes minutes). Allowed: 15 % of a moment, and 20 % of the speed of the least one.
+moment are 335 and 207 1/min, outside what is allowed. What the source says of surfaces and oil,
+with rings that give way, takes minutes: ``python -m benchmarks.references.missed rig``. Allowed:
+15 % of a moment, and 20 % of the speed of the least one.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.journal import Contact, Film, JournalBearing, Lubricant, ThickShell
+from loadflow.journal import Contact, Film, JournalBearing, Lubricant
 from loadflow.tribology import AsperityContact, combined_roughness
 from loadflow.validation.check import Check, evidence
 
@@ -42,20 +42,6 @@ _LEFT_OUT = (
     "rigid bearings leave too much to the oil; with the summits above the mean planes that the "
     "source states, oil that thickens and rings that give way the moments are 32 … 42 % too large"
 )
-SUMMITS = Contact(
-    AsperityContact(
-        roughness=float(combined_roughness(0.13e-6, 0.28e-6)),
-        contact_modulus=53.3e9,
-        factor=1e-3,
-        summit_height=0.60e-6,
-    ),
-    friction=0.02,
-    surface_roughness=ROUGH.roughness,
-)
-"""The surfaces as the source states them: summits 0.21 and 0.39 µm above the mean planes."""
-RINGS = ThickShell(0.14, 52.5e9), ThickShell(0.13, 105e9)
-"""Rod of aluminium on a steel shaft, and steel on steel, as rings of about their size that are held
-outside: 1/E is that of shell and shaft together."""
 
 
 def moments(load: float, speeds: np.ndarray, tilted: float = 0.0) -> np.ndarray:
@@ -70,23 +56,6 @@ def moments(load: float, speeds: np.ndarray, tilted: float = 0.0) -> np.ndarray:
         for bearing, force in ((TEST, load), (SUPPORT, 0.5 * load))
     )
     return np.asarray((tested.friction_power + 2 * supporting.friction_power) / omega)
-
-
-def elastic_moments(
-    load: float, speeds: np.ndarray, cells: tuple[int, int] = (60, 8)
-) -> np.ndarray:
-    """As `moments`, with the surfaces, the elasticity and the oil that the source states.
-
-    `speeds` fall, as each film is found from the last.
-    """
-    omega = speeds * np.pi / 30
-    found = []
-    for bearing, ring, force in zip((TEST, SUPPORT), RINGS, (load, 0.5 * load)):
-        oil = Lubricant(6.8e-3, pressure_coefficient=9.5e-9)
-        film = Film(oil, contact=SUMMITS, shell=ring, inlet=None, grid=cells)
-        forces = np.tile([force, 0.0], (speeds.size, 1))
-        found.append(bearing.equilibrium(forces, omega, film).friction_power / omega)
-    return np.asarray(found[0] + 2 * found[1])
 
 
 def _tilt(bearing: JournalBearing, share: float) -> dict[str, Any]:

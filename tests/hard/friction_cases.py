@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 from hard_case import Outcome, hard, refused
+from richter import richter_printed
 
 from loadflow.rolling import FrictionOptions, RollerBearing, roller_friction, rotor_coefficients
 from loadflow.rolling.friction import balanced_temperature
 from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
-from loadflow.rolling.stiffness.contact_films import richter_plate, richter_printed
+from loadflow.rolling.stiffness.contact_films import richter_plate
 from loadflow.tribology import lubricant, moes_line, traction
-from loadflow.tribology.lubricant_laws import barus
+from loadflow.tribology.lubricant_states import barus_state
 
 BEARING = RollerBearing(
     rollers=14, roller_diameter=11e-3, roller_length=11e-3, pitch_diameter=60.5e-3, clearance=8e-6
@@ -121,7 +122,7 @@ def free_roller():
     what="the stress is limited before it is multiplied; 0 at rest, odd, the limit elsewhere",
 )
 def solid_film():
-    stiff = barus(10.6e-3, 2e-8, np.array([3e9, 1e12]))[:, None]
+    stiff = barus_state(10.6e-3, 0.0, 2e-8, 0.0, np.array([3e9, 1e12]))[0][:, None]
     sliding = np.array([-1.0, -1e-12, 0.0, 1e-12, 1.0])
     newton = traction.newtonian_stress(stiff, sliding, 1e-7)
     stress = traction.smooth_stress(newton, 4e7)

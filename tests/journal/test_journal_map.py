@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from benchmarks.peers.journal_map import held_out
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Film,
@@ -82,7 +83,7 @@ def test_map_between_its_nodes(name):
     options, _ = mobility.scaled(Film(OIL, grading="graded", **film))
     table = mobility.tabulate(0.75, options, 1.0 if name == "mixture" else 0.0)
     points = np.random.default_rng(7).uniform((0, 0, 0.1), (0.95, np.pi / 2, 1), (40, 3))
-    errors = mobility.held_out(table, 0.75, options, points)
+    errors = held_out(table, 0.75, options, points)
     assert np.median(errors) < 0.01
     assert np.quantile(errors, 0.9) < 0.08  # worst where light eccentricity meets a starved film
 

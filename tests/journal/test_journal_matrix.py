@@ -5,10 +5,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from film_matrix import BEARING, OCCASIONS, PARTS, RUNGS_SHOWN, asked, refused, table
 
 from loadflow.errors import InputError
 from loadflow.journal import JournalBearing
-from loadflow.journal.matrix import BEARING, OCCASIONS, PARTS, RUNGS_SHOWN, asked, refused, table
 
 PAGE = Path(__file__).parents[2] / "docs" / "journal-matrix.md"
 LOAD, SPEED, TIME = np.array([6e3, 1e3]), 100.0, np.linspace(0.0, 0.02, 5)

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from roller_energy import RollerState, energy_audit, roller_torques
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import FrictionOptions, RollerBearing, friction, roller_friction
-from loadflow.rolling.friction import RollerState, energy_audit, rolling_resistance
+from loadflow.rolling.friction import rolling_resistance
 from loadflow.rolling.motion.kinematics import contact_speeds, ideal_speeds
 from loadflow.tribology import lubricant, traction
 from loadflow.validation.friction import MAIN, MAIN_BEARING, MAIN_RACES, MODULUS
@@ -258,7 +259,7 @@ def test_losses_of_a_bearing_are_the_power_of_its_shaft():
         inner_speed=speed, outer_speed=0.0, cage_speed=cage, spin=spin, traction=(pull, pull),
         rolling=tuple(rolling), drag=drag * spin,
     )  # fmt: skip
-    torques = [np.sum(t) for t in friction.roller_torques(state, *MAIN_RACES)]
+    torques = [np.sum(t) for t in roller_torques(state, *MAIN_RACES)]
     assert sum(torques) == pytest.approx(0.0, abs=1e-12)
     shaft = torques[0] * speed + torques[2] * cage
     assert shaft == pytest.approx(float(found.power), rel=1e-12)

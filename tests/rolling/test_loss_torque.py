@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from roller_energy import RollerState, roller_torques
 
 from loadflow.errors import InputError
 from loadflow.journal import JournalBearing
 from loadflow.rolling import FrictionOptions
 from loadflow.rolling.friction import DragConstants, drag_constants
-from loadflow.rolling.friction.energy import RollerState, roller_torques
 from loadflow.rolling.motion import _motion_kernels as kernels
 from loadflow.rolling.motion.history import radial_history
 from loadflow.rolling.motion.radial_load import behw_law

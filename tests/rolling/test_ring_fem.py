@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks.references.whole_rings import reference_equilibrium
 from loadflow.errors import InputError
 from loadflow.rolling import (
     FiniteElementRing,
@@ -19,7 +20,6 @@ from loadflow.rolling import (
     SolidRing,
     Support,
     patch_points,
-    reference_equilibrium,
 )
 from loadflow.rolling.rings.local_compliance import half_space
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON

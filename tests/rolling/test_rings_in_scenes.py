@@ -10,7 +10,6 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.errors import InputError
-from loadflow.planning.ladder import rung_of
 from loadflow.rolling import (
     FiniteElementRing,
     FlexibleRings,
@@ -25,6 +24,7 @@ from loadflow.rolling import (
 )
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.scene import make_scene
+from loadflow.stages.registry import models
 
 GEOMETRY = {
     "balls": 100, "ball_diameter": 0.04, "pitch_diameter": 2.5, "groove_radius": 0.021,
@@ -117,7 +117,7 @@ def test_every_slewing_bearing_of_a_scene_may_have_flexible_rings(tmp_path):
                 "loads": {"source": "files", "files": [str(cube)]}, "rolling": [first, second],
             }
         )  # fmt: skip
-        assert rung_of(scene, "rolling") == ("flexible" if rings else "rigid")
+        assert models()["rolling"].text_of(scene) == ("flexible" if rings else "rigid")
         table = lf.run(scene, out=tmp_path, report=False).tree["rolling"]
         largest[bool(rings)] = float(table["bearing_force"].sel(bearing="N2").max())
     assert largest[True] != pytest.approx(largest[False], rel=0.01)

@@ -6,11 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from roller_energy import RollerState, energy_audit
 
+from benchmarks.peers.roller_moment import roller_moment
 from loadflow.errors import InputError
 from loadflow.rolling import FrictionOptions
 from loadflow.rolling import friction as parts
-from loadflow.rolling.friction import DragConstants, RollerState, energy_audit
+from loadflow.rolling.friction import DragConstants
 from loadflow.rolling.motion import _coulomb_kernels, _motion_kernels
 from loadflow.rolling.motion.cage import CageRim, cage_orbit
 from loadflow.rolling.motion.crank import CrankDrive
@@ -156,7 +158,7 @@ def test_film_steps_agree_with_lsoda():
 
     def rate(t, w):
         at = [np.interp(t, time, v[:, roller] if v.ndim == 2 else v) for v in given_[1:]]
-        return [_motion_kernels.roller_moment(numbers, *at, w[0]) / ROW.inertia]
+        return [roller_moment(numbers, *at, w[0]) / ROW.inertia]
 
     ours = film_motion(history, WITH_DRAG, tolerance=1e-5).spin[:, roller]
     path = solve_ivp(

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from richter import richter_printed
 
 from loadflow.errors import InputError
 from loadflow.rolling import (
-    BallBearing,
     FrictionOptions,
     RollerBearing,
     SlewingBearing,
@@ -15,41 +15,14 @@ from loadflow.rolling import (
     rotor_coefficients,
 )
 from loadflow.rolling.stiffness import contact_films as film_dynamics
-from loadflow.rolling.stiffness.lim_singh import lim_singh_ball, lim_singh_roller
 from loadflow.tribology import lubricant
-
-ROLLER = RollerBearing(
-    rollers=14,
-    roller_diameter=11e-3,
-    roller_length=11e-3,
-    pitch_diameter=60.5e-3,
-    slices=1,
-    profile="straight",
-    contact_angle=0.3,
-    clearance=4e-6,
+from loadflow.validation._lim_singh import (
+    BALL,
+    ROLLER,
+    ball_row,
+    lim_singh_roller,
+    roller_row,
 )
-BALL = BallBearing(
-    balls=9,
-    ball_diameter=12.7e-3,
-    pitch_diameter=65e-3,
-    groove_radius=0.52 * 12.7e-3,
-    clearance=15e-6,
-)
-
-
-def _roller(q):
-    return lim_singh_roller(
-        q, ROLLER.contacts().azimuth, 30.25e-3, ROLLER.slice_stiffness, 0.3, 4e-6
-    )
-
-
-def _ball(q):
-    contacts = BALL.contacts()
-    return lim_singh_ball(
-        q, contacts.azimuth, contacts.table[0, 0], BALL.series_stiffness, BALL.groove_distance,
-        0.0, 15e-6,
-    )  # fmt: skip
-
 
 micro = st.floats(-3e-5, 3e-5)
 small = st.floats(-1e-3, 1e-3)
@@ -59,7 +32,7 @@ small = st.floats(-1e-3, 1e-3)
 @settings(max_examples=40, deadline=None)
 def test_closed_form_is_the_tangent_of_the_load_distribution(x, y, z, a, b):
     q = np.array([x, y, z, a, b])
-    for bearing, closed in ((ROLLER, _roller), (BALL, _ball)):
+    for bearing, closed in ((ROLLER, roller_row), (BALL, ball_row)):
         gradient, hessian = np.zeros(5), np.zeros((5, 5))
         _kernels.evaluate(q, *bearing.contacts().arguments, gradient, hessian)
         found = closed(q)
@@ -70,7 +43,7 @@ def test_closed_form_is_the_tangent_of_the_load_distribution(x, y, z, a, b):
         assert (found.stiffness[:, 5] == 0).all()
 
 
-@pytest.mark.parametrize("closed", [_roller, _ball])
+@pytest.mark.parametrize("closed", [roller_row, ball_row])
 def test_closed_form_against_finite_differences(closed):
     q = np.array([3e-5, 1e-5, 1.5e-5, 2e-4, -3e-4])
     step = np.array([1e-9, 1e-9, 1e-9, 1e-8, 1e-8])
@@ -84,8 +57,8 @@ def test_closed_form_against_finite_differences(closed):
 
 def test_cases_are_vectorised():
     q = np.array([[3e-5, 0, 1e-5, 0, 0], [0, 2e-5, 2e-5, 1e-4, 0]])
-    both = _ball(q)
-    assert both.stiffness[1] == pytest.approx(_ball(q[1]).stiffness)
+    both = ball_row(q)
+    assert both.stiffness[1] == pytest.approx(ball_row(q[1]).stiffness)
 
 
 def test_cylindrical_rollers_resist_tilting_only_in_slices():
@@ -103,7 +76,7 @@ def test_plate_series_meets_the_closed_form():
         eta = 0.04 * ratio / (12 * 100.0 / (0.5e-6**2 * 1.5e9) * 1e-8)
         args = (1.5e9, 11e-3, 100e-6, 0.5e-6, eta, 100.0)
         found = film_dynamics.richter_plate(*args)
-        k, d = film_dynamics.richter_printed(*args)
+        k, d = richter_printed(*args)
         assert found.real == pytest.approx(k, rel=1e-9)
         assert found.imag / 100 == pytest.approx(d, rel=1e-11)
 
@@ -128,19 +101,6 @@ def test_plate_limits():
         film_dynamics.richter_plate(1.5e9, 1.0, 1e-4, 0.0, 1.0, 1.0)
 
 
-def test_films_and_structure_are_in_series():
-    film = film_dynamics.richter_plate(1.5e9, 11e-3, 1e-4, 5e-7, 1e9, 1e3)
-    series = film_dynamics.richter_roller(film, film, 1000.0, 6e-6, 1e3)
-    printed = film_dynamics.richter_roller(film, film, 1000.0, 6e-6, 1e3, "printed")
-    secant = 1000.0 / 6e-6
-    assert series.real < secant < printed.real
-    assert film_dynamics.in_series(2.0, 2.0) == 1.0
-    assert film_dynamics.in_series(2.0, 0.0) == 0.0
-    # the source's quarter of the sum is too stiff by ((k1 - k2)/(k1 + k2))²
-    exact, quarter = (film_dynamics.dietl_roller(3.0, 1.0, v) for v in ("physics", "printed"))
-    assert (quarter - exact) / quarter == pytest.approx(0.25)
-
-
 def test_dietl_elements():
     # Q = 1 kN on 11 mm: BEHW 1.713e8 N/m, ISO 1.901e8 N/m
     for constant, power, delta, expected in (
@@ -157,10 +117,6 @@ def test_dietl_elements():
         )
         assert k == pytest.approx(slope, rel=1e-6)
     assert film_dynamics.dietl_film_stiffness(1000.0, 0.5e-6) == pytest.approx(2e10)
-    one, two = (film_dynamics.dietl_film_damping(2.0, 300.0, 0.1, n) for n in (1, 2))
-    assert two == pytest.approx(2 * one)
-    assert two == pytest.approx(4 * 2.0 * 300 / (2 * np.pi) * 0.1)  # 4 m f δ
-    assert film_dynamics.dietl_material_damping(1e8, 0.01, 100.0) == pytest.approx(1e4)
 
 
 OIL = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=333.15)

@@ -8,6 +8,7 @@ from loadflow.readers.openfast import read_table
 from loadflow.rotor import RotorOptions, simulate, steady_state
 from loadflow.shaft import TwoPoint, bearing_loads
 from loadflow.validation._load_series import SWINGING, compare, measures
+from loadflow.validation._turbulent_series import MEASURED, SERIES
 from loadflow.validation.loads import _TURBULENT
 
 TILT = np.radians(5.0)
@@ -45,6 +46,18 @@ def test_1p_of_an_imbalance_and_3p_reach_the_bearing():
         near = np.abs(f - order * once) < 0.03
         around = (np.abs(f - order * once) > 0.06) & (np.abs(f - order * once) < 0.15)
         assert power[near].max() > 3 * power[around].mean(), order
+
+
+@pytest.mark.openfast
+@pytest.mark.parametrize("wind", SERIES)
+def test_the_numbers_of_one_series_a_wind_are_its_own(openfast_data, wind):
+    file = openfast_data / f"nrel5mw_dlc11_v{wind:02.0f}_s1.outb"
+    if not file.exists():
+        pytest.skip(f"{file.name} is not there")
+    theirs = compare([read_loads(str(file)).isel(case=0).load()], TILT)
+    for channel, (expected, _) in SERIES[wind].items():
+        found = [theirs[channel][measure] for measure in MEASURED]
+        assert found == pytest.approx(expected, rel=1e-3), channel
 
 
 @pytest.mark.openfast

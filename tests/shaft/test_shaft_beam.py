@@ -248,3 +248,10 @@ def test_the_former_names_still_work_and_say_so():
     with pytest.warns(DeprecationWarning, match="CoupledBearing: quick is now cheap"):
         bearing = CoupledBearing(lambda rows: None, state, state.astype(bool), quick=True)
     assert bearing.cheap
+
+
+@pytest.mark.parametrize("share", [-1e-11, 0.0, 1e-11])
+def test_sections_that_add_up_but_for_rounding_end_with_the_shaft(share):
+    lengths = 4.1, 2.1 * (1 + share)
+    beam = Beam(tuple(replace(SOLID, length=length) for length in lengths))
+    assert [stop for _, stop, _ in beam.stretches(6.2)] == [4.1, 6.2]

@@ -7,7 +7,7 @@ from synthetic import case as synthetic_case
 
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.errors import InputError, SolverError
-from loadflow.planning.ladder import expected_seconds, measured, rung_of
+from loadflow.planning.ladder import expected_seconds, measured
 from loadflow.planning.plan import make_plan
 from loadflow.running.runner import run
 from loadflow.scene.scene import make_scene
@@ -15,6 +15,7 @@ from loadflow.shaft import TwoPoint
 from loadflow.shaft import bearing_loads as suspended
 from loadflow.stages.film_support import film_model
 from loadflow.stages.reduction import reduced_loads
+from loadflow.stages.registry import models
 from loadflow.stages.rolling_support import rolling_model
 from loadflow.stages.seeds import series_of
 from loadflow.stages.shaft import bearing_loads, summary
@@ -173,7 +174,7 @@ def test_the_plan_names_the_choice_and_feels_the_bearings():
         scene_of(supports, rolling=rolling, journal={"lubricant": {"viscosity": v}})
         for v in (0.05, 0.06)
     )
-    assert rung_of(one, "shaft") == "two_point, beam, iterated with N journal, N2 rolling"
+    assert models()["shaft"].text_of(one) == "two_point, beam, iterated with N journal, N2 rolling"
     digests = [
         next(step.digest for step in make_plan(s).steps if step.name == "shaft")
         for s in (one, other)

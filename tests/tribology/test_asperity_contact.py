@@ -158,15 +158,3 @@ def test_contact_power_is_never_negative(pressure, sliding):
     assert power >= 0
     assert power <= 0.1 * pressure * abs(sliding) * (1 + 1e-12)
     assert power == pytest.approx(boundary_stress(pressure, sliding, 0.1) * sliding)
-
-
-def test_compiled_boundary_stress_and_its_derivatives():
-    args = (3e6, 0.7e-3, 0.12, 1e-3)
-    stress, by_pressure, by_speed = kernels.boundary_stress(*args)
-    assert stress == pytest.approx(float(boundary_stress(*args)), rel=1e-14)
-    more, faster = (
-        boundary_stress(3e6 + 1.0, *args[1:]),
-        boundary_stress(3e6, 0.7e-3 + 1e-9, *args[2:]),
-    )
-    assert by_pressure == pytest.approx(float(more - stress), rel=1e-6)
-    assert by_speed == pytest.approx(float(faster - stress) / 1e-9, rel=1e-5)

@@ -10,6 +10,7 @@ from scipy.integrate import quad
 from loadflow.errors import InputError
 from loadflow.tribology import Oil, asperities, lubricant, lubricant_names, traction
 from loadflow.tribology import lubricant_laws as laws
+from loadflow.tribology import lubricant_states as states
 
 
 @given(st.floats(5e-6, 2e-3), st.floats(0.02, 0.5))
@@ -39,10 +40,11 @@ def test_steepness_is_the_derivative_of_the_viscosity(name):
 
 def test_roelands_starts_like_barus_and_stays_below():
     p = np.array([1e3, 1e8, 1e9, 3e9])
-    thick, barus = laws.roelands(0.1, 2e-8, p), laws.barus(0.1, 2e-8, p)
+    thick = states.roelands_state(0.1, 0.0, 2e-8, 0.0, p)[0]
+    barus = states.barus_state(0.1, 0.0, 2e-8, 0.0, p)[0]
     assert thick[0] == pytest.approx(barus[0], rel=1e-9)
     assert (thick[1:] < barus[1:]).all()
-    assert np.isfinite(laws.barus(0.1, 2e-8, 1e12))
+    assert np.isfinite(states.barus_state(0.1, 0.0, 2e-8, 0.0, np.array(1e12))[0])
 
 
 def test_bulk_modulus_is_that_of_the_compressed_density():

@@ -2,7 +2,6 @@
 
 import math
 
-import numba
 import numpy as np
 import pytest
 from hypothesis import given
@@ -19,7 +18,6 @@ from loadflow.tribology import (
     RunningIn,
     ShaftImprint,
     WornArc,
-    kernels,
 )
 
 CASE = ConformalWear(force=1e5, radius=0.2, width=0.25, coefficient=1e-16, distance=1e3)
@@ -131,20 +129,6 @@ def test_running_in_ends_at_the_steady_law_and_roughness():
     assert late == pytest.approx(0.7e-6 * math.log(6), rel=1e-6)
     plain = RunningIn(initial_roughness=1e-6, final_roughness=1e-6, depth=1e-6)
     assert plain.worn(law, 5e6, 2e3, 3e-6) == pytest.approx(3e-6 + 1e-6, rel=1e-14)
-
-
-def test_compiled_running_in_and_its_derivative():
-    @numba.njit
-    def step(worn, steady):
-        return kernels.worn_depth(worn, steady, 0.7e-6, 6.0)
-
-    law, pressure = Archard(1e-16), 5e6
-    expected = float(STATE.worn(law, pressure, 1e3, 0.2e-6))
-    value, slope = step(0.2e-6, float(law.depth(pressure, 1e3)))
-    assert value == pytest.approx(expected, rel=1e-14)
-    steady, d = float(law.depth(pressure, 1e3)), 1e-11
-    difference = (step(0.2e-6, steady + d)[0] - step(0.2e-6, steady - d)[0]) / (2 * d)
-    assert slope == pytest.approx(difference, rel=1e-7)
 
 
 @pytest.mark.parametrize("shape", [WornArc, ShaftImprint])

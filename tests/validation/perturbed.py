@@ -1,10 +1,11 @@
 """Rows of validation tables with the arithmetic of the package put slightly wrong.
 
-Run as ``python perturbed.py TABLE ...``; prints the rows as JSON, a list of name, expected and got
-for each table. Every product, quotient and power in plain Python of the package, those of its
-validation aside, and every returned real number is off by a share of 1e-11. Whole numbers, which
-count something, stay; so do functions that numba compiles (with ``NUMBA_DISABLE_JIT=1`` they are
-plain Python, too) and slices of rollers: of one slice off its middle nothing resists the moment.
+Run as ``python perturbed.py TABLE ... [-ROOM ...]``; prints the rows as JSON, a list of name,
+expected and got for each table. Every product, quotient and power in plain Python of the package,
+those of its validation aside, and every returned real number is off by a share of 1e-11. Whole
+numbers, which count something, stay; so do functions that numba compiles (with
+``NUMBA_DISABLE_JIT=1`` they are plain Python, too), slices of rollers: of one slice off its middle
+nothing resists the moment, and rooms that are given with a hyphen before them.
 What is only read from data, or calculated in the table itself, does not move.
 """
 
@@ -21,7 +22,8 @@ import numpy as np
 SHARE = 1e-11
 RETURNED = 2.718e-11  # another share: with the same one, factors above and below a line cancel
 COMPILED = re.compile(r"^from numba|^import numba|_compile import|Cells\b", re.MULTILINE)
-SLICES = "loadflow.rolling.roller_raceways"
+EXACT = ["loadflow.rolling.roller_raceways"]
+"""What stays as it is: slices of rollers, and the rooms given."""
 
 
 def off(value, share):
@@ -67,7 +69,8 @@ class Loader(importlib.machinery.SourceFileLoader):
         text = self.get_data(path).decode("utf-8")
         tree = ast.parse(text, path)
         plain = os.environ.get("NUMBA_DISABLE_JIT") or not COMPILED.search(text)
-        if plain and ".validation" not in fullname and fullname != SLICES:
+        exact = any(f"{fullname}.".startswith(f"{room}.") for room in EXACT)
+        if plain and ".validation" not in fullname and not exact:
             tree = ast.fix_missing_locations(Arithmetic().visit(tree))
         return compile(tree, path, "exec", dont_inherit=True)
 
@@ -88,6 +91,7 @@ class Finder(importlib.machinery.PathFinder):
 if __name__ == "__main__":
     builtins._product_off = lambda value: off(value, SHARE)
     builtins._return_off = lambda value: off(value, RETURNED)
+    EXACT += [one[1:] for one in sys.argv[1:] if one.startswith("-")]
     sys.meta_path.insert(0, Finder)
 
     from loadflow import validation
@@ -97,5 +101,6 @@ if __name__ == "__main__":
             [row.name, float(row.expected), float(row.got)] for row in validation.all_checks(name)
         ]
         for name in sys.argv[1:]
+        if not name.startswith("-")
     }
     json.dump(rows, sys.stdout)

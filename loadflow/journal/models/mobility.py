@@ -31,7 +31,6 @@ from loadflow.journal.models.mobility_films import (
     GAPS,
     LOADS,
     ODD,
-    POWERS,
     STIFFNESS,
     Found,
     MovingFilm,
@@ -218,24 +217,3 @@ def fill_column(
             motion[:, k:], results[:, k:] = motion[:, [k - 1]], results[:, [k - 1]]
             return
         motion[: i + 1, k], results[: i + 1, k] = motion[i + 1, k], results[i + 1, k]
-
-
-def held_out(table: MobilityMap, width_ratio: float, options: Film, points: Array) -> Array:
-    """Relative error (n,) of the velocity at `points` (n, 3): ε, angle from it to the load, s.
-
-    The film is solved at each point, so that points between the nodes show what the map costs;
-    NaN where the film has no solution.
-    """
-    film = MovingFilm(width_ratio, options)
-    errors = []
-    for ratio, angle, size in points.tolist():
-        chi = kernel.direction(1.0 - ratio, math.cos(angle), math.sin(angle))
-        raw = np.empty(2)
-        kernel.interpolate(table.motion, table.axes, 1.0 - ratio, chi, size, raw)
-        got = size * np.sinh(raw) * (1.0 - ratio) ** POWERS
-        begin = Found(film.film.start(), size * np.array([math.cos(chi), math.sin(chi)]))
-        found = approach(film, (0.0, size), (0.0, size), chi, begin)
-        found = found and approach(film, (0.0, size), (ratio, size), chi, found, 5)
-        exact = found.velocity if found else np.full(2, np.nan)
-        errors.append(math.hypot(*(got - exact)) / math.hypot(*exact))
-    return np.array(errors)

@@ -8,7 +8,6 @@ roller_drag         viscous drag in cage pocket and at ribs (Hampp)
 coulomb             roller and cage with Coulomb friction: forces, moments, losses
 guides              cage sides and rim, thrust washers, lip seals
 churning            churning with two constants, fitted to a run without load
-energy              audit: shaft power = losses + stored energy
 contact_films       film of every roller and ball contact; `options`: lubricant, surfaces, ribs
 roller_losses       film, Λ and losses of a whole roller bearing in ideal rolling
 ball_losses         the same of ball and slewing bearings; `bearing`: what both share

@@ -5,12 +5,8 @@ Plain expressions for floats or arrays; equation numbers are those of von Hollen
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import NDArray
-
-from loadflow.numerics.fields import check_one_of
 
 Value = float | NDArray[np.float64]
 
@@ -59,47 +55,6 @@ def cage_inertia_force(
     41.9
     """
     return (cage_mass + rollers / 2 * roller_mass) * crank_radius * speed * speed
-
-
-def cage_rub_torque(
-    force: Value,
-    sliding: float,
-    cage_radius: float,
-    variant: Literal["physics", "printed"] = "physics",
-    crank_radius: float = 0.0,
-    speed: Value = 1.0,
-    cage_speed: Value = 0.0,
-) -> Value:
-    """Torque of a cage that rubs on its guide with mixed friction, μ' F r_cage, N m, (8.3).
-
-    Von Hollen prints r² dτ'/dt with the crank's radius for the force's r ω² and the cage's radius:
-    not a torque at all (kg m²/s).
-
-    Parameters
-    ----------
-    force : float or ndarray
-        `cage_inertia_force`, N.
-    sliding : float
-        μ'.
-    cage_radius : float
-        Outer radius of the cage, m.
-    variant : {"physics", "printed"}
-        "printed" returns the number of (8.3), for which the next three are needed.
-    crank_radius : float
-        m.
-    speed, cage_speed : float or ndarray
-        Of crank and cage, rad/s.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import cage_rub_torque
-    >>> round(cage_rub_torque(50.0, 0.04, 0.0314), 4)
-    0.0628
-    """
-    if variant == "printed":
-        return sliding * force / (crank_radius * speed * speed) * crank_radius**2 * cage_speed
-    check_one_of("variant", variant, ("physics", "printed"))
-    return sliding * force * cage_radius
 
 
 def thrust_washer_torque(

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Annotated, Literal, NamedTuple
+from typing import Annotated, Literal
 
 from annotated_types import Ge, Gt, Lt
 
@@ -281,69 +281,3 @@ def coulomb_drag_constants(
     half = 2.0 if variant == "printed" else 1.0  # von Hollen drops the factor ½ of (5.20)
     rib_part = half * rib_constant(gaps, viscosity, variant)
     return DragConstants(plain.spin + change * rib_part, plain.orbit * (1 + change))
-
-
-class RibShear(NamedTuple):
-    """What the oil between a roller's ends and the ribs of one ring does to the roller.
-
-    `moment` against the spin, N m; `force` along the ring's turning, N; `loss` of both bodies, W.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import RollerGaps, rib_shear
-    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
-    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
-    ...     roughness=1e-6, pitch_diameter=0.5)
-    >>> found = rib_shear(gaps, 0.02, spin=60.0, ring_speed=-4.5)
-    >>> found._fields, found.loss > 0
-    (('moment', 'force', 'loss'), True)
-    """
-
-    moment: float
-    force: float
-    loss: float
-
-
-def rib_shear(
-    gaps: RollerGaps,
-    viscosity: float,
-    spin: float,
-    ring_speed: float,
-    rib: Literal["outer", "inner"] = "outer",
-) -> RibShear:
-    """Viscous shear at the ribs from the whole field of sliding speeds, which loses what it must.
-
-    Parameters
-    ----------
-    gaps : RollerGaps
-        Roller and ribs.
-    viscosity : float
-        Pa s.
-    spin : float
-        Spin of the roller against the cage, rad/s.
-    ring_speed : float
-        Speed of the ring with the ribs against the cage, rad/s.
-    rib : {"outer", "inner"}
-        Ring with the ribs.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import RollerGaps, rib_shear
-    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
-    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
-    ...     roughness=1e-6, pitch_diameter=0.5)
-    >>> slow, fast = (rib_shear(gaps, 0.02, speed, -speed / 13).loss for speed in (30.0, 60.0))
-    >>> round(fast / slow, 6)
-    4.0
-    """
-    r, h = gaps.radius, gaps.rib_height
-    pitch = gaps.pitch_diameter / 2
-    polar = segment_polar(r, h) / 2
-    left = r - h
-    area = r**2 * math.acos(left / r) - left * math.sqrt(2 * r * h - h**2)
-    first = segment_area_moment(r, h) * (1.0 if rib == "outer" else -1.0)
-    film = _conductance(gaps, viscosity)
-    moment = film * ((ring_speed + spin) * polar + ring_speed * pitch * first)
-    force = film * (ring_speed * (pitch * area + first) + spin * first)
-    loss = moment * spin + (force * pitch + moment) * ring_speed
-    return RibShear(moment, force, loss)

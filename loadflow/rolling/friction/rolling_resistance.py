@@ -54,18 +54,6 @@ def hysteresis_moment(load: Value, half_width: Value, loss: float) -> Value:
     return loss * 2.0 / (3.0 * np.pi) * load * half_width
 
 
-def rolling_coefficient(half_width: Value, roller_radius: float, loss: float) -> Value:
-    """Coefficient of rolling friction μ_R = α 2a/(3πρ), (4.40).
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import rolling_coefficient
-    >>> f"{rolling_coefficient(57e-6, 5.5e-3, loss=0.01):.2e}"
-    '2.20e-05'
-    """
-    return loss * 2.0 * half_width / (3.0 * np.pi * roller_radius)
-
-
 def elastic_force(
     load: Value,
     length: Value,

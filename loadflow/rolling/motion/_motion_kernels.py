@@ -260,15 +260,6 @@ def _balance(film, contacts, surface, steady, tangential, slip):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def roller_moment(film, surface, turning, swing, load, outward, tangential, spin):
-    """Moment on a roller, N m: its inertia times the rate of the spin."""
-    contacts = both_contacts(film, surface, spin, load, outward)
-    steady = film.orbit_drag * turning - film.inertia * swing
-    slip = surface - film.radius * spin
-    return _balance(film, contacts, surface, steady, tangential, slip)[0]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
 def _slip_of_stage(film, contacts, surface, steady, tangential, known, part, slip):
     """Slip speed at which spin = known + part × moment, for given contacts, from a guess.
 

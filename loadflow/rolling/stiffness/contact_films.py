@@ -11,13 +11,10 @@ Richter, Dietl, as reviewed by Kruk. Krämer, E.: Dynamics of Rotors and Foundat
 
 from __future__ import annotations
 
-from typing import Literal
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_one_of
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -81,72 +78,6 @@ def richter_plate(
     return np.asarray(modulus * span / h * 2 * b * np.where(small, series, closed))
 
 
-def richter_printed(
-    bulk_modulus: float,
-    length: float,
-    half_width: float,
-    film: float,
-    viscosity: float,
-    frequency: float,
-) -> tuple[float, float]:
-    """Stiffness (N/m) and damping (N s/m) of the plate in the printed real form, (2.5)–(2.10).
-
-    Exact, but undefined at γ₆ = π/2 + kπ and overflowing for stiff films; arguments as
-    `richter_plate`.
-    """
-    g3 = 12 * viscosity * frequency / (film**2 * bulk_modulus)
-    g6 = half_width * np.sqrt(g3 / 2)
-    tan, tanh = np.tan(g6), np.tanh(g6)
-    over = 1 + tanh**2 * tan**2
-    g4 = (tanh / np.cos(g6) ** 2 + tan / np.cosh(g6) ** 2) / over
-    g5 = (tanh / np.cos(g6) ** 2 - tan / np.cosh(g6) ** 2) / over
-    scale, reach = bulk_modulus * length / film, np.sqrt(2 / g3)
-    return (
-        float(scale * (2 * half_width - reach * g4)),
-        float(scale / frequency * reach * g5),
-    )
-
-
-def in_series(*stiffnesses: ArrayLike) -> Complex:
-    """Complex stiffness of springs (and dampers) in series, N/m; 0 if one of them is 0."""
-    parts = np.broadcast_arrays(*(np.asarray(k, complex) for k in stiffnesses))
-    soft = np.any([p == 0 for p in parts], axis=0)
-    compliance = sum(1 / np.where(p == 0, 1.0, p) for p in parts)
-    return np.asarray(np.where(soft, 0.0, 1 / np.where(soft, 1.0, compliance)))
-
-
-def richter_roller(
-    inner: ArrayLike,
-    outer: ArrayLike,
-    force: ArrayLike,
-    deflection: ArrayLike,
-    frequency: ArrayLike,
-    variant: Literal["physics", "printed"] = "physics",
-) -> Complex:
-    """Complex stiffness of a roller between two films and two Hertzian contacts, N/m, (2.3), (2.4).
-
-    Parameters
-    ----------
-    inner, outer : array_like of complex
-        Films at both rings (`richter_plate`).
-    force, deflection : array_like
-        Static load, N, and elastic approach of the rings, m, whose secant is the structure.
-    frequency : array_like
-        rad/s.
-    variant : {"physics", "printed"}
-        Films and structure carry the same load and are in series; Kruk adds the structure in
-        parallel, and puts the films' stiffnesses and dampings in series each by itself.
-    """
-    secant = np.asarray(force, float) / np.asarray(deflection, float)
-    if variant == "physics":
-        return in_series(inner, outer, secant)
-    check_one_of("variant", variant, ("physics", "printed"))
-    first, second = np.asarray(inner, complex), np.asarray(outer, complex)
-    stiffness = in_series(first.real, second.real).real + secant
-    damping = in_series(first.imag / frequency, second.imag / frequency).real
-    return np.asarray(stiffness + 1j * np.asarray(frequency, float) * damping)
-
-
 def dietl_contact_stiffness(load: ArrayLike, deflection: ArrayLike, exponent: float) -> Array:
     """Tangent n Q/δ of a contact Q = C δ^n, N/m, (2.11).
 
@@ -168,61 +99,6 @@ def dietl_film_stiffness(load: ArrayLike, film: ArrayLike, exponent: float = 0.1
         m, the film law's exponent of the load: about 0.1.
     """
     return np.asarray(np.asarray(load, float) / (exponent * np.asarray(film, float)))
-
-
-def dietl_roller(
-    inner: ArrayLike, outer: ArrayLike, variant: Literal["physics", "printed"] = "physics"
-) -> Complex:
-    """Complex stiffness k + iωc of a roller between its two contacts, N/m, (2.16).
-
-    Parameters
-    ----------
-    inner, outer : array_like of complex
-        Contacts with both rings. A law of both contacts together, as (5.14) of von Hollen, is
-        already the series.
-    variant : {"physics", "printed"}
-        Springs in series, or a quarter of their sum: too stiff by ((k₁ - k₂)/(k₁ + k₂))².
-    """
-    if variant == "physics":
-        return in_series(inner, outer)
-    check_one_of("variant", variant, ("physics", "printed"))
-    return (np.asarray(inner, complex) + np.asarray(outer, complex)) / 4
-
-
-def dietl_material_damping(stiffness: ArrayLike, loss: float, frequency: ArrayLike) -> Array:
-    """Damping ψ k/ω of the steel, N s/m, (2.12).
-
-    Parameters
-    ----------
-    stiffness : array_like
-        N/m.
-    loss : float
-        ψ, energy lost in a cycle over 2π times the largest strain energy.
-    frequency : array_like
-        Circular frequency, rad/s.
-    """
-    return np.asarray(loss * np.asarray(stiffness, float) / np.asarray(frequency, float))
-
-
-def dietl_film_damping(
-    mass: float, frequency: ArrayLike, decrement: float, contacts: Literal[1, 2] = 1
-) -> Array:
-    """Damping of the film from a measured logarithmic decrement, N s/m, (2.14).
-
-    Parameters
-    ----------
-    mass : float
-        Mass that swings, kg.
-    frequency : array_like
-        Its circular frequency, rad/s.
-    decrement : float
-        Logarithmic decrement.
-    contacts : {1, 2}
-        Contacts that share the decrement: the printed factor 4 m f stands for two.
-    """
-    if contacts not in (1, 2):
-        raise InputError(f"contacts: must be 1 or 2, got {contacts!r}")
-    return np.asarray(contacts * mass * np.asarray(frequency, float) / np.pi * decrement)
 
 
 def proportional_damping(stiffness: ArrayLike, time_constant: float = 1e-5) -> Array:

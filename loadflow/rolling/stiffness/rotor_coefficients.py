@@ -23,7 +23,6 @@ from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.results import ContactResult
 from loadflow.rolling.roller_raceways import RollerRaceways
 from loadflow.rolling.stiffness import contact_films as dynamics
-from loadflow.rolling.stiffness.lim_singh import DOF
 from loadflow.tribology.hertz import effective_modulus
 from loadflow.tribology.lubricant_laws import bulk_modulus
 
@@ -34,6 +33,7 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
 Result = ContactResult[BallRaceways] | ContactResult[RollerRaceways]
 Model = Literal["film", "dry", "proportional"]
+DOF = ("x", "y", "z", "theta_x", "theta_y", "theta_z")
 RINGS: tuple[Ring, ...] = ("inner", "outer")
 # m of h ~ Q^-m: Moes's elastic film of lines, Hamrock and Dowson's of points
 _LINE_EXPONENT, _POINT_EXPONENT = 0.125, 0.067
@@ -69,7 +69,7 @@ def rotor_coefficients(
     model : {"film", "dry", "proportional"}
         Films in series (Richter's plate); steel alone; steel with C = σ K.
     loss : float
-        ψ of the steel, the share of the stiffness that damps (`dietl_material_damping`).
+        ψ of the steel, the share of the stiffness that damps: a damping of ψ k/ω.
     time_constant : float
         σ of "proportional", s (`proportional_damping`).
 

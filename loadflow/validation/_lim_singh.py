@@ -1,7 +1,7 @@
 """Stiffness matrix of ball and roller bearings in closed form after Lim and Singh.
 
-Given the displacement of the inner ring, forces and the 6 × 6 tangent follow without a solver: the
-independent check of, and the fast way beside, the load distribution (whose tangent is the same).
+Given the displacement of the inner ring, forces and the 6 × 6 tangent follow without a solver. The
+stiffness of a load distribution is held against it: another derivation, by our own hand.
 Equation numbers are those of Kruk's review.
 
 References
@@ -12,21 +12,43 @@ Lim, Singh: Vibration transmission through rolling element bearings, part I. J. 
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable, Iterator
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-Array = NDArray[np.float64]
+from loadflow.rolling import BallBearing, RollerBearing
+from loadflow.validation.check import Check, evidence
 
-DOF = ("x", "y", "z", "theta_x", "theta_y", "theta_z")
+Array = NDArray[np.float64]
+Held = Callable[..., Any]
+
+ROLLER = RollerBearing(
+    rollers=14,
+    roller_diameter=11e-3,
+    roller_length=11e-3,
+    pitch_diameter=60.5e-3,
+    slices=1,
+    profile="straight",
+    contact_angle=0.3,
+    clearance=4e-6,
+)
+BALL = BallBearing(
+    balls=9,
+    ball_diameter=12.7e-3,
+    pitch_diameter=65e-3,
+    groove_radius=0.52 * 12.7e-3,
+    clearance=15e-6,
+)
 
 
 class RingForces(NamedTuple):
     """Forces of the rolling elements and their tangent.
 
     `loads` (..., 5) are (Fx, Fy, Fz, Mx, My) on the inner ring that hold the displacement, N and
-    N m; `stiffness` (..., 6, 6) is in the order `DOF`, with zeros for the free rotation.
+    N m; `stiffness` (..., 6, 6) is in the order (x, y, z, θx, θy, θz), with zeros for the free
+    rotation.
     """
 
     loads: Array
@@ -144,3 +166,44 @@ def _assemble(
         + np.swapaxes(cross, -1, -2)
     )
     return RingForces(loads, matrix)
+
+
+def roller_row(displacement: ArrayLike) -> RingForces:
+    """Closed form of `ROLLER`."""
+    return lim_singh_roller(
+        displacement, ROLLER.contacts().azimuth, 30.25e-3, ROLLER.slice_stiffness, 0.3, 4e-6
+    )
+
+
+def ball_row(displacement: ArrayLike) -> RingForces:
+    """Closed form of `BALL`."""
+    contacts = BALL.contacts()
+    return lim_singh_ball(
+        displacement,
+        contacts.azimuth,
+        contacts.table[0, 0],
+        BALL.series_stiffness,
+        BALL.groove_distance,
+        0.0,
+        15e-6,
+    )
+
+
+Row = Callable[[ArrayLike], RingForces]
+
+
+@evidence("consistency")
+def checks() -> Iterator[Check]:
+    """Stiffness of a solved load distribution against the closed form at its displacement."""
+    source = "Lim and Singh 1990, evaluated by us at the displacement found"
+    rows: tuple[tuple[str, Held, Row], ...] = (
+        ("ball", BALL.equilibrium, ball_row),
+        ("roller", ROLLER.equilibrium, roller_row),
+    )
+    for name, hold, row in rows:
+        load = row([2e-5, 5e-6, 1e-5, 1e-4, -2e-4]).loads  # a load that a single row can hold
+        found = hold(force=load[:3], moment=load[3:])
+        closed = row(found.displacement).stiffness
+        for i, j in ((0, 0), (0, 2), (1, 3), (2, 2), (3, 3), (4, 4)):
+            expected, got = float(closed[i, j]), float(found.stiffness[i, j])
+            yield Check(f"k_{i + 1}{j + 1}, {name} bearing", source, expected, got, 1e-8)

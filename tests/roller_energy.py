@@ -7,12 +7,19 @@ Both agree only if forces, levers and the roller's equation of motion are right.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.rolling.friction import RollerGaps
+from loadflow.rolling.friction.roller_drag import (
+    _conductance,
+    segment_area_moment,
+    segment_polar,
+)
 from loadflow.rolling.motion.kinematics import Value, contact_speeds
 
 Array = NDArray[np.float64]
@@ -45,7 +52,7 @@ class RollerState:
 
     Examples
     --------
-    >>> from loadflow.rolling.friction import RollerState
+    >>> from roller_energy import RollerState
     >>> state = RollerState(inner_speed=10.0, outer_speed=0.0, cage_speed=4.5, spin=60.0)
     >>> state.spin_rate, state.rib
     (0.0, 'outer')
@@ -80,7 +87,7 @@ class EnergyAudit:
 
     Examples
     --------
-    >>> from loadflow.rolling.friction import EnergyAudit
+    >>> from roller_energy import EnergyAudit
     >>> audit = EnergyAudit(shaft=120.0, stored=15.0, losses={"slip": 70.0, "drag": 35.0})
     >>> audit.shaft - audit.stored - sum(audit.losses.values())  # W, what is not accounted for
     0.0
@@ -113,7 +120,7 @@ def roller_torques(
 
     Examples
     --------
-    >>> from loadflow.rolling.friction import RollerState, roller_torques
+    >>> from roller_energy import RollerState, roller_torques
     >>> state = RollerState(inner_speed=10.0, outer_speed=0.0, cage_speed=4.5, spin=60.0,
     ...     traction=(100.0, -100.0))
     >>> inner, outer, cage = roller_torques(state, 0.2, 0.24)
@@ -140,26 +147,32 @@ def energy_audit(
 ) -> EnergyAudit:
     """Audit the power of rollers.
 
-    Parameters
-    ----------
-    state : RollerState
-        Speeds and forces; fields broadcast.
-    inner_diameter, outer_diameter : float
-        Raceway diameters, m.
-    inertia : float
-        Moment of inertia of a roller about its axis, kg m².
+        Parameters
+        ----------
+        state : RollerState
+            Speeds and forces; fields broadcast.
+        inner_diameter, outer_diameter : float
+            Raceway diameters, m.
+        inertia : float
+            Moment of inertia of a roller about its axis, kg m².
 
-    Examples
-    --------
-    A roller held back by drag alone, rolling without slip:
+        Examples
+        --------
+        A roller held back by drag alone, rolling without slip:
 
-    >>> from loadflow.rolling.motion.kinematics import ideal_speeds
-    >>> d, big = 49.5e-3, 71.5e-3
-    >>> cage, spin = ideal_speeds(100.0, 0.0, d, big)
-    >>> state = RollerState(inner_speed=100.0, outer_speed=0.0, cage_speed=cage, spin=spin,
-    ...     traction=(1.0, 1.0), drag=2 * 5.5e-3)
-    >>> energy_audit(state, d, big, 1.7e-7).error < 1e-12
-    True
+        >>> from loadflow.rolling.friction import RollerGaps
+    from loadflow.rolling.friction.roller_drag import (
+        _conductance,
+        segment_area_moment,
+        segment_polar,
+    )
+    from loadflow.rolling.motion.kinematics import ideal_speeds
+        >>> d, big = 49.5e-3, 71.5e-3
+        >>> cage, spin = ideal_speeds(100.0, 0.0, d, big)
+        >>> state = RollerState(inner_speed=100.0, outer_speed=0.0, cage_speed=cage, spin=spin,
+        ...     traction=(1.0, 1.0), drag=2 * 5.5e-3)
+        >>> energy_audit(state, d, big, 1.7e-7).error < 1e-12
+        True
     """
     to_inner, to_outer, to_cage = roller_torques(state, inner_diameter, outer_diameter)
     shaft = to_inner * state.inner_speed + to_outer * state.outer_speed
@@ -186,3 +199,69 @@ def energy_audit(
         return float(np.broadcast_to(power, shape).sum())
 
     return EnergyAudit(total(shaft), total(stored), {k: total(p) for k, p in losses.items()})
+
+
+class RibShear(NamedTuple):
+    """What the oil between a roller's ends and the ribs of one ring does to the roller.
+
+    `moment` against the spin, N m; `force` along the ring's turning, N; `loss` of both bodies, W.
+
+    Examples
+    --------
+    >>> from roller_energy import RollerGaps, rib_shear
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> found = rib_shear(gaps, 0.02, spin=60.0, ring_speed=-4.5)
+    >>> found._fields, found.loss > 0
+    (('moment', 'force', 'loss'), True)
+    """
+
+    moment: float
+    force: float
+    loss: float
+
+
+def rib_shear(
+    gaps: RollerGaps,
+    viscosity: float,
+    spin: float,
+    ring_speed: float,
+    rib: Literal["outer", "inner"] = "outer",
+) -> RibShear:
+    """Viscous shear at the ribs from the whole field of sliding speeds, which loses what it must.
+
+    Parameters
+    ----------
+    gaps : RollerGaps
+        Roller and ribs.
+    viscosity : float
+        Pa s.
+    spin : float
+        Spin of the roller against the cage, rad/s.
+    ring_speed : float
+        Speed of the ring with the ribs against the cage, rad/s.
+    rib : {"outer", "inner"}
+        Ring with the ribs.
+
+    Examples
+    --------
+    >>> from roller_energy import RollerGaps, rib_shear
+    >>> gaps = RollerGaps(radius=0.02, length=0.06, end_gaps=(2e-4, 2e-4), rib_gaps=(1e-4, 1e-4),
+    ...     pocket_gaps=(1e-4, 1e-4), rib_height=0.008, cage_half_height=0.005, pocket_angle=0.5,
+    ...     roughness=1e-6, pitch_diameter=0.5)
+    >>> slow, fast = (rib_shear(gaps, 0.02, speed, -speed / 13).loss for speed in (30.0, 60.0))
+    >>> round(fast / slow, 6)
+    4.0
+    """
+    r, h = gaps.radius, gaps.rib_height
+    pitch = gaps.pitch_diameter / 2
+    polar = segment_polar(r, h) / 2
+    left = r - h
+    area = r**2 * math.acos(left / r) - left * math.sqrt(2 * r * h - h**2)
+    first = segment_area_moment(r, h) * (1.0 if rib == "outer" else -1.0)
+    film = _conductance(gaps, viscosity)
+    moment = film * ((ring_speed + spin) * polar + ring_speed * pitch * first)
+    force = film * (ring_speed * (pitch * area + first) + spin * first)
+    loss = moment * spin + (force * pitch + moment) * ring_speed
+    return RibShear(moment, force, loss)

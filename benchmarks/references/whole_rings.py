@@ -55,7 +55,7 @@ def reference_equilibrium(
     Examples
     --------
     >>> from loadflow.rolling import FlexibleRings, RingBeam, RingSection, SlewingBearing, Support
-    >>> from loadflow.rolling import reference_equilibrium
+    >>> from benchmarks.references.whole_rings import reference_equilibrium
     >>> bearing = SlewingBearing(balls=12, ball_diameter=0.04, pitch_diameter=0.5,
     ...     groove_radius=0.0208, contact_angle=0.785)
     >>> wall = Support.wall(radius=0.3, height=0.06, thickness=0.03, length=0.3)
