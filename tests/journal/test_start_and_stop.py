@@ -12,6 +12,7 @@ from loadflow.scene.scene import make_scene
 from loadflow.stages import journal as stage
 from loadflow.stages.film_summary import extremes, mixed_friction
 from loadflow.studies.verdicts import verdicts
+from loadflow.wind import LOAD_CASES
 
 LOAD = 1e6
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -190,6 +191,11 @@ def test_pressures_are_those_of_a_shaft_that_turns_and_one_that_stands_has_a_loa
     assert told["standing_load_time"] == 2.0
     turning = extremes(samples.isel(sample=slice(0, 2)))
     assert np.isnan(turning["standing_load"])
+    # a storm that pulls the rotor through its brake does not make it one that runs
+    slipping = extremes(samples, parked=True)
+    assert np.isnan(slipping["largest_pressure"])
+    assert slipping["standing_load"] == 2.5e6
+    assert [dlc for dlc, row in LOAD_CASES.items() if row.parked] == ["6.1", "6.2", "6.3", "7.1"]
 
 
 def test_a_standing_shaft_is_judged_by_its_specific_load(start):
