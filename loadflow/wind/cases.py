@@ -107,8 +107,11 @@ class LoadCase:
 
     @property
     def stands_or_starts(self) -> bool:
-        """Whether the shaft stands, starts or stops, so that its speed goes through zero."""
-        return self.events[0] in (*STANDING, "start", "stop", "emergency stop")
+        """Whether the shaft stands, starts or stops, so that its speed goes through zero.
+
+        Every fault ends in a stop.
+        """
+        return self.events[0] != "none"
 
     @property
     def safety_factor(self) -> float:

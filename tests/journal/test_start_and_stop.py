@@ -198,6 +198,34 @@ def test_pressures_are_those_of_a_shaft_that_turns_and_one_that_stands_has_a_loa
     assert [dlc for dlc, row in LOAD_CASES.items() if row.parked] == ["6.1", "6.2", "6.3", "7.1"]
 
 
+def test_faults_end_in_a_stop_and_are_no_power_production_to_the_limits_of_a_film():
+    produce = [dlc for dlc, row in LOAD_CASES.items() if not row.stands_or_starts]
+    assert produce == ["1.1", "1.2", "1.3", "1.4", "1.5"]
+
+
+def test_a_brake_that_slips_by_some_degrees_in_strong_wind_holds_a_shaft_that_stands():
+    time = np.arange(0.0, 60.0, 0.1)
+    swinging = 0.01 * np.sin(2 * np.pi * 0.5 * time) + 5e-4  # slips by 0.02 rad in 40 s
+    speed = np.where(time < 20.0, 1.0 - 0.05 * time, swinging)
+    sample = "sample"
+    samples = xr.Dataset(
+        {
+            "time": (sample, time),
+            "speed": (sample, speed),
+            "weight": (sample, np.ones(time.size)),
+            "load": (sample, np.full(time.size, 2e6)),
+            "maximum_pressure": (sample, np.where(time < 22.0, 3e6, 140e6)),
+            "minimum_film": (sample, np.full(time.size, 2e-5)),
+            "converged": (sample, np.ones(time.size, bool)),
+            "residual": (sample, np.zeros(time.size)),
+            "friction_power": (sample, np.ones(time.size)),
+        }
+    )
+    told = extremes(samples)
+    assert told["largest_pressure"] == 3e6  # until it turns back
+    assert told["standing_load"] == 2e6
+
+
 def test_a_standing_shaft_is_judged_by_its_specific_load(start):
     scene, _, samples, _ = start
     table = stage.summary({Case("3.1", 8.0, 1): xr.DataTree.from_dict({"N": samples})})
@@ -230,9 +258,9 @@ def test_a_braked_shaft_that_swings_stands():
     told = mixed_friction(samples)
     assert told["standstill_time"] == pytest.approx(20.0, abs=0.5)
     assert told["mixed_friction_revolutions"] == 0.0
-    samples["speed"] = samples["speed"] + np.where(time > 50.0, 1e-3, 0.0)  # turns on slowly
+    samples["speed"] = samples["speed"] + np.where(time > 50.0, 1.9e-3, 0.0)  # turns on slowly
     told = mixed_friction(samples)
-    assert told["standstill_time"] > 80.0
+    assert told["standstill_time"] > 70.0
     assert told["mixed_friction_revolutions"] > 0.0
 
 
