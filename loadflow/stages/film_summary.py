@@ -168,9 +168,9 @@ STANDING = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
 [Jonuschies 2015]."""
 
-SWING = 0.05
+SWING = 0.2
 """Angle, rad, within which a shaft that stands may swing: a brake holds it by an elastic
-drivetrain, and slips a little in strong wind (0.03 rad in 30 s after a fault at 24 m/s)."""
+drivetrain, and slips in gusts (0.14 rad in 36 s after a fault at 24 m/s)."""
 
 
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:

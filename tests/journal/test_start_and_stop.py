@@ -242,7 +242,7 @@ def test_a_standing_shaft_is_judged_by_its_specific_load(start):
 def test_a_braked_shaft_that_swings_stands():
     time = 0.025 * np.arange(4000)
     braked = np.maximum(1.0 - 0.05 * time, 0.0)
-    swings = np.where(time > 20.0, 2e-3 * np.sin(10.0 * (time - 20.0)), 0.0)
+    swings = np.where(time > 20.0, 1e-2 * np.sin(10.0 * (time - 20.0)), 0.0)
     samples = xr.Dataset(
         {
             "time": ("sample", time),
@@ -258,7 +258,7 @@ def test_a_braked_shaft_that_swings_stands():
     told = mixed_friction(samples)
     assert told["standstill_time"] == pytest.approx(20.0, abs=0.5)
     assert told["mixed_friction_revolutions"] == 0.0
-    samples["speed"] = samples["speed"] + np.where(time > 50.0, 1.9e-3, 0.0)  # turns on slowly
+    samples["speed"] = samples["speed"] + np.where(time > 50.0, 9e-3, 0.0)  # turns on slowly
     told = mixed_friction(samples)
     assert told["standstill_time"] > 70.0
     assert told["mixed_friction_revolutions"] > 0.0
