@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import case, cube_file
 
 import loadflow as lf
 from loadflow.cube import make_cube, save_cube
 from loadflow.planning.choice import finer
 from loadflow.planning.plan import make_plan
+from loadflow.planning.verification import to_refine
 from loadflow.scene.scene import make_scene
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
@@ -113,3 +115,22 @@ def test_a_film_at_rest_is_compared_with_the_orbit_of_the_whole_series(cube, tmp
         part.tree["journal"]["largest_eccentricity_ratio"].item() for part in (run, orbit)
     )
     assert ratio == pytest.approx(abs(ours / theirs - 1), rel=1e-9)
+
+
+def test_a_model_is_refined_only_where_nothing_that_stays_is_further_off():
+    rows = [
+        ("journal", "journal.film", "maximum pressure", 0.11),
+        ("motion of the film", "journal.film", "maximum pressure", 0.94),
+        ("journal", "journal.film", "minimum film", 0.02),
+        ("rolling", "rolling.life", "life", 0.2),
+    ]
+    names = ("stage", "result", "quantity")
+    texts = {name: ("check", [row[k] for row in rows]) for k, name in enumerate(names)}
+    values = {
+        "difference": ("check", [row[3] for row in rows]),
+        "allowed": ("check", [0.05] * len(rows)),
+    }
+    tree = xr.DataTree.from_dict({"check": xr.Dataset(values, texts)})
+    stays = "motion of the film"
+    assert to_refine(tree, lambda stage: stage != stays) == ["rolling"]
+    assert to_refine(tree, lambda stage: True) == ["journal", stays, "rolling"]

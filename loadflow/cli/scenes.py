@@ -29,7 +29,10 @@ from loadflow.errors import InputError, LoadflowError
 from loadflow.numerics.fields import none_such
 from loadflow.quantities import load_cases, percent
 
-SceneFile = Annotated[Path, typer.Argument(help="Scene, a TOML file.", show_default=False)]
+SceneFile = Annotated[
+    Path,
+    typer.Argument(help="Scene, a TOML file; or a turbine alone, windIO.", show_default=False),
+]
 LoadFiles = Annotated[
     list[str] | None,
     typer.Option("--loads", help="Load files (name or quoted pattern) in place of the scene's."),

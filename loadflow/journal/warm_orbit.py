@@ -41,6 +41,9 @@ MILDEST = 4
 BALANCED = 2e-3
 """What is left of the heat balance of that mean, K: other samples move it by more."""
 
+SLOW = 0.01
+"""Share of the fastest speed below which a shaft warms nothing: friction goes with its square."""
+
 LEFT_OUT = 0.1
 """Share of the samples without a film at rest above which their mean is warned of."""
 
@@ -98,6 +101,7 @@ def series_temperature(
 
     Loads without a film at rest are left out of the mean: squeeze may carry them in motion. They
     are not passed on to a more expensive model, unless none has a film; then only the `MILDEST`.
+    Neither are those asked in which the shaft hardly turns, as after a stop: nothing warms there.
 
     Raises
     ------
@@ -110,6 +114,8 @@ def series_temperature(
         More than `LEFT_OUT` of the samples have no film at rest; names the largest load that does.
     """
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
+    turning = np.abs(speed[some])
+    some = some[turning >= SLOW * turning.max()]
     limits = Limits(1e-10, 60, strict=False, refine=False)
     found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
     if not found["converged"].any():

@@ -6,7 +6,7 @@ of the run's; this tells both on others.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
@@ -43,13 +43,31 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
     )
 
 
-def exceeded(tree: xr.DataTree) -> list[str]:
-    """Return the models and effects that differ by more than the accuracy asked for."""
+def to_refine(tree: xr.DataTree, can: Callable[[str], bool]) -> list[str]:
+    """Return the models and effects whose refinement brings an answer nearer to what is asked for.
+
+    They differ by more than that, `can` be refined, and are not outweighed in every such answer by
+    what cannot be: a finer grid is no help where the effect of motion, left out, is larger.
+    """
     if "check" not in tree.children:
         return []
     check = tree["check"].to_dataset()
-    stages = check["stage"].values[(check["difference"] > check["allowed"]).values]
-    return list(dict.fromkeys(map(str, stages)))
+    rows = [
+        (str(row.stage.item()), (str(row.result.item()), str(row.quantity.item())), row)
+        for row in (check.isel(check=k) for k in range(check.sizes["check"]))
+        if row["difference"] > row["allowed"]
+    ]
+    able = {stage: can(stage) for stage, _, _ in rows}
+    fixed: dict[tuple[str, str], float] = {}
+    for stage, answer, row in rows:
+        if not able[stage]:
+            fixed[answer] = max(fixed.get(answer, 0.0), row["difference"].item())
+    helps = [
+        stage
+        for stage, answer, row in rows
+        if able[stage] and row["difference"].item() > fixed.get(answer, 0.0)
+    ]
+    return list(dict.fromkeys(helps))
 
 
 def warnings(tree: xr.DataTree) -> list[str]:

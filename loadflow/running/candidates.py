@@ -74,6 +74,7 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
         raise InputError(
             f"no candidates: the scene states none, and for {scene.turbine.name} with bearings at "
             f"{', '.join(places) or 'no place'} the package has none; write [candidates.NAME.PLACE]"
+            " into the scene (`loadflow scene --show` prints that of a turbine file)"
         )
     return usable, [name for name in found if name not in usable]
 

@@ -226,7 +226,7 @@ def _run(
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
         record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
-        higher = [stage for stage in check.exceeded(tree) if can_refine(scene, plan.scene, stage)]
+        higher = check.to_refine(tree, partial(can_refine, scene, plan.scene))
         if not higher:
             break
         log.info("not accurate enough, better models of: %s", ", ".join(higher))

@@ -10,7 +10,7 @@ import hashlib
 import tomllib
 from math import inf
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, BinaryIO, Literal, Self
 
 import numpy as np
 from pydantic import BaseModel, Field, ValidationError, field_validator, model_validator
@@ -42,6 +42,7 @@ from loadflow.scene.shaft import Shaft
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
+from loadflow.scene.turbine_alone import WINDIO, scene_of
 from loadflow.scene.usual_bearings import usual_bearings
 from loadflow.scene.wear import Wear, check_wear
 from loadflow.scene.written import SCENE, anchored, in_sections, origins
@@ -308,7 +309,8 @@ def read_scene(path: str | Path) -> Scene:
     Parameters
     ----------
     path : str or Path
-        TOML file. Paths in it are meant relative to the file.
+        TOML file. Paths in it are meant relative to the file. Or a windIO file (.yaml): the
+        scene is that of its turbine alone.
 
     Returns
     -------
@@ -336,7 +338,7 @@ def read_scene(path: str | Path) -> Scene:
     path = Path(path)
     try:
         with path.open("rb") as stream:
-            data = tomllib.load(stream)
+            data = _data(path, stream)
     except OSError as error:
         raise InputError(f"{path}: cannot read the scene: {error.strerror}") from error
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
@@ -379,8 +381,13 @@ def former_sections(path: str | Path) -> list[str]:
         It cannot be read.
     """
     with Path(path).open("rb") as stream:
-        data = tomllib.load(stream)
+        data = _data(Path(path), stream)
     return [name for name in ("journal", "rolling") if name in data]
+
+
+def _data(path: Path, stream: BinaryIO) -> dict[str, Any]:
+    """What a scene file says, or the scene of a turbine alone."""
+    return scene_of(path) if path.suffix.lower() in WINDIO else tomllib.load(stream)
 
 
 def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:

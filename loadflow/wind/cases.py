@@ -101,9 +101,17 @@ class LoadCase:
         return self.events[0] not in STANDING
 
     @property
+    def parked(self) -> bool:
+        """Whether a brake holds the shaft throughout; in a storm it may slip."""
+        return self.events[0] in ("parked", "parked, blade stuck")
+
+    @property
     def stands_or_starts(self) -> bool:
-        """Whether the shaft stands, starts or stops, so that its speed goes through zero."""
-        return self.events[0] in (*STANDING, "start", "stop", "emergency stop")
+        """Whether the shaft stands, starts or stops, so that its speed goes through zero.
+
+        Every fault ends in a stop.
+        """
+        return self.events[0] != "none"
 
     @property
     def safety_factor(self) -> float:

@@ -247,6 +247,19 @@ def test_a_series_is_as_warm_as_those_of_its_loads_that_have_a_film():
     assert warm > all_of_them > 315.0  # the mild loads turn faster
 
 
+def test_loads_on_a_shaft_that_has_stopped_are_not_asked_for_their_heat():
+    speed = np.append(np.full(32, 1.0), np.full(32, 1e-3))
+    force = np.column_stack([np.append(np.full(32, 1e5), np.full(32, 1e6)), np.zeros(64)])
+    film = Film(heat=Heat(inlet_temperature=315.0), cavitation=Sommerfeld())
+    model = _CarriesUpTo(5e5)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        stopped = series_temperature(model, BEARING, film, force, speed, Line())
+    assert {size.size for size, _ in model.asked} == {32}
+    running = series_temperature(model, BEARING, film, force[:32], speed[:32], Line())
+    assert stopped == pytest.approx(running, rel=1e-12)
+
+
 def test_where_no_load_has_a_film_the_mildest_are_asked_of_a_finer_model():
     model = _CarriesUpTo(0.0, refined=4e4)
     with pytest.warns(ValidityWarning, match="1 of 4"):

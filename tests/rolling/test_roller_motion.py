@@ -281,3 +281,27 @@ def test_a_braking_cage_holds_rollers_but_never_turns_them_back():
     assert motion.slip.min() > -1e-12
     assert motion.slip.max() == 1.0
     assert (motion.slip[motion.settled] < 1e-9).any()
+
+
+def test_a_stage_of_a_roller_that_turns_back_under_grease_converges():
+    # tapered roller of a parked rotor that swings in its brake: the spin that the films ask for
+    # jumps from side to side of the answer, ever within the bounds found before
+    row = RollerRow(
+        rollers=64, roller_diameter=0.08, roller_length=0.14, pitch_diameter=2.0, contact_angle=0.5
+    )
+    grease = FrictionOptions(
+        oil=lubricant("lgep-2"), temperature=313.15, roughness=0.6e-6, roller_drag=1e-3,
+        starvation=0.7,
+    )  # fmt: skip
+    state = (
+        -0.015439053126159747, -0.030916202490707593, 0.008819847334893487,
+        57.36366481614285, -25.943373380394714, -45.36239411077991,
+    )  # fmt: skip
+    known, part, guess = -5.718657586483572e-05, 6.62753121762128, -5.641303688618953e-05
+    tally, film = np.zeros(4), film_numbers(row, grease)
+    spin, _, _ = _motion_kernels._stage(film, state, known, part, guess, tally)
+    assert tally[1] == 0
+    assert tally[0] < 20
+    moment = _motion_kernels.roller_moment(film, *state, spin)
+    # the balance of the implicit step, to what a stage is solved to
+    assert spin == pytest.approx(known + part * moment, rel=1e-3)

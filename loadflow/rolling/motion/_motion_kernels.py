@@ -304,7 +304,8 @@ def _stage(film, state, known, part, guess, tally):
     """Spin of an implicit stage: contacts and slopes at a spin, slip in them, until both agree.
 
     `state` is (surface, turning, swing, load, outward, tangential). The films feel the mean speed
-    alone, which slip at most halves; a spin that leaves the bounds found so far is halved back.
+    alone, which slip at most halves; a spin that leaves the bounds found so far is halved back, and
+    one that turns about the answer between them, as of a rotor that swings in its brake, too.
     What a line leaves out is of second order: contacts whose mean speed was right to `_CLOSE` are
     right to its square.
     """
@@ -313,6 +314,7 @@ def _stage(film, state, known, part, guess, tally):
     spin = guess
     scale = max(abs(surface), 1e-9) / film.radius
     low, high = -math.inf, math.inf
+    last = math.inf
     for _ in range(60):
         contacts = both_contacts(film, surface, spin, load, outward)
         start = surface - film.radius * spin
@@ -327,9 +329,10 @@ def _stage(film, state, known, part, guess, tally):
             low = max(low, spin)
         else:
             high = min(high, spin)
-        if not low < found < high:
+        turns = abs(gap) > 0.5 * last and -math.inf < low and high < math.inf
+        if turns or not low < found < high:
             found = 0.5 * (low + high)
-        spin = found
+        spin, last = found, abs(gap)
     else:
         tally[1] += 1
         tally[2] = max(tally[2], abs(gap) / scale)
