@@ -46,6 +46,7 @@ from loadflow.journal.models._reduced_loops import (
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
+from loadflow.numerics.references import refer
 
 _KEPT = 0.3  # share of a gap, or of the tilt of a pad, that a step leaves
 _SMALL = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
@@ -309,6 +310,8 @@ def solve_on_pads(
     The pads begin at `pad_work.tilts` of the last time, and, from the third time on, of the one
     before it; those of which `pad_work.on` says so have a film.
     """
+    film, work, warmth = refer(film), refer(work), refer(warmth)
+    pads, pad_work = refer(pads), refer(pad_work)
     before, new, given, own = work.places[0], work.places[1], work.places[2], pad_work.tilts
     count, resting = pad_work.on.size, begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
