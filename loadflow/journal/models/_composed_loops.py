@@ -230,17 +230,15 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
             residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return residual, spent, answered, rounding
-        spent += 1
-        if work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance:
-            substitute(work.matrix, work.columns, 1)
-        else:
+        spent, columns = spent + 1, 1
+        if not (work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance):
             slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
             work.kept[0] = 0.0
             if not factorise(work.matrix):
                 return residual, spent, False, rounding
-            substitute(work.matrix, work.columns, 1 + size)
-            work.kept[0], work.kept[1] = 1.0, rate
+            work.kept[0], work.kept[1], columns = 1.0, rate, 1 + size
+        substitute(work.matrix, work.columns, columns)
         last = residual
         if size > 0:
             _shaft_step(film, work, load, size, step)

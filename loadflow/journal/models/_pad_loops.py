@@ -280,12 +280,12 @@ def _other_pads(work, pads, pad_work, q, reached, speed):
     for j in range(count):
         lift = lift_of(pads, pad_work.tilts, NEXT, j, reached[0], reached[1])
         if finite and pad_work.on[j] and abs(lift) < FLAT:
-            put_on(work, pads, pad_work, q, speed, j, False)
+            put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     for j in range(0 if changed else count):
         gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
         if not pad_work.on[j] and gap < pads.widest[sense] + NEAR:
-            put_on(work, pads, pad_work, q, speed, j, True)
+            put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     return changed
 
@@ -385,7 +385,7 @@ def solve_on_pads(
                         put_on(work, pads, pad_work, q, omega, j, holds)
                         changed = True
                 if changed:
-                    set_out(film, work, pads, pad_work, q, True)
+                    set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif resting:
                 pass
             elif not other and _other_pads(work, pads, pad_work, q, new, omega):
