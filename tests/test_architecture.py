@@ -197,10 +197,7 @@ def test_files_are_short():
     assert found - LONGER == set()
 
 
-CALLED_BY_OTHERS = {
-    "emit", "handleError", "on_end", "on_start",
-    "_finalize_final_module", "define_pipelines", "run_pass",
-}  # fmt: skip
+CALLED_BY_OTHERS = {"emit", "generic_resolve", "handleError", "on_end", "on_start"}
 """Methods that logging and numba call, by names that they chose."""
 
 
@@ -232,7 +229,7 @@ def defined() -> Iterator[str]:
 
 def is_validator(node: ast.FunctionDef | ast.ClassDef) -> bool:
     """Whether a decorator registers it, as those of pydantic, typer and numba do."""
-    registers = ("validator", "command", "callback", "overload", "register")
+    registers = ("validator", "command", "callback", "overload", "register", "infer")
     return any(word in ast.unparse(d) for d in node.decorator_list for word in registers)
 
 

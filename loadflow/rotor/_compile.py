@@ -3,8 +3,9 @@
 A machine is a tuple of some forty arrays. Counting references to each of them, at each call for
 each section, took two thirds of the time of a run, and handing them on, at each call for each
 blade, a fifth of the rest; so what a step calls is inlined and counts none (`_nrt`: it may not
-allocate, its `Room` comes with it), and division by zero gives infinity or NaN, without a branch
-that raises. The loop is checked for finite results afterwards.
+allocate, its `Room` comes with it), a machine is handed on by its place (`refer`), and division by
+zero gives infinity or NaN, without a branch that raises. The loop is checked for finite results
+afterwards.
 
 What Python never calls, tests included, has no way in from there (`inner_section`, …).
 """

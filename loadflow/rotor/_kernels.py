@@ -6,6 +6,8 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 
 import numpy as np
 
+from loadflow.numerics.references import refer
+
 from ._compile import kernel, once
 from ._wind_kernels import hub_wind
 from .aero._kernels import solve
@@ -62,6 +64,7 @@ def march(
     `fresh`: wake and induced speed are steady at first. Not `controlled`: speed and pitch stay.
     `room` is a `Room`; `out` (steps, COLUMNS + blades) is filled.
     """
+    m, c, schedule, inflow, room = refer(m), refer(c), refer(schedule), refer(inflow), refer(room)
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
     shape, motion, force, answer, found = (
         room.shape, room.motion, room.force, room.answer, room.found
@@ -179,6 +182,7 @@ def march(
 @kernel
 def fill_table(m, angles, pitches, table):
     """Induced over undisturbed speed, normal and tangential, for `tabulated_induction`."""
+    m = refer(m)
     for i in range(m.radius.size):
         for p in range(angles.size):
             normal, tangential = np.sin(angles[p]), np.cos(angles[p])

@@ -5,7 +5,7 @@ each over from Python, and to raise where a number is divided by zero took half 
 compiling and of running. So nothing here counts references (`_nrt`: it may not allocate), a
 division by zero gives infinity or NaN, which Newton's loop looks for, and what compiled functions
 alone call has no way in from Python. A function is compiled again in each that calls it, so levels
-are few.
+are few. Films with effects are handed on by their place, see `refer`; those without are small.
 """
 
 from functools import partial

@@ -43,6 +43,7 @@ from loadflow.journal.models._reduced_loops import (
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
+from loadflow.numerics.references import refer
 
 _KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 _ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
@@ -229,17 +230,15 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
             residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return residual, spent, answered, rounding
-        spent += 1
-        if work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance:
-            substitute(work.matrix, work.columns, 1)
-        else:
+        spent, columns = spent + 1, 1
+        if not (work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance):
             slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
             work.kept[0] = 0.0
             if not factorise(work.matrix):
                 return residual, spent, False, rounding
-            substitute(work.matrix, work.columns, 1 + size)
-            work.kept[0], work.kept[1] = 1.0, rate
+            work.kept[0], work.kept[1], columns = 1.0, rate, 1 + size
+        substitute(work.matrix, work.columns, columns)
         last = residual
         if size > 0:
             _shaft_step(film, work, load, size, step)
@@ -364,6 +363,7 @@ def solve(
     `load` (n, 4), `line` (n, 4) tilt and bend; in motion the tilt is given where `size` is 2.
     Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how many of them.
     """
+    film, work, warmth = refer(film), refer(work), refer(warmth)
     before, new, given = work.places[0], work.places[1], work.places[2]
     resting = begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0

@@ -9,7 +9,8 @@ from loadflow.journal.models._composed_gap_kernels import place
 from loadflow.journal.models._composed_loops import keep
 from loadflow.journal.solvers.moving_pads import TILT
 
-BEFORE, LAST, NEXT, STEP = range(4)  # of `PadWork.tilts`
+# of `PadWork.tilts`; a function is compiled for each of Python's integers that it is called with
+BEFORE, LAST, NEXT, STEP = np.arange(4)
 
 
 @inner

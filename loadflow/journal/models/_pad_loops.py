@@ -46,6 +46,7 @@ from loadflow.journal.models._reduced_loops import (
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
+from loadflow.numerics.references import refer
 
 _KEPT = 0.3  # share of a gap, or of the tilt of a pad, that a step leaves
 _SMALL = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
@@ -279,12 +280,12 @@ def _other_pads(work, pads, pad_work, q, reached, speed):
     for j in range(count):
         lift = lift_of(pads, pad_work.tilts, NEXT, j, reached[0], reached[1])
         if finite and pad_work.on[j] and abs(lift) < FLAT:
-            put_on(work, pads, pad_work, q, speed, j, False)
+            put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     for j in range(0 if changed else count):
         gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
         if not pad_work.on[j] and gap < pads.widest[sense] + NEAR:
-            put_on(work, pads, pad_work, q, speed, j, True)
+            put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     return changed
 
@@ -309,6 +310,8 @@ def solve_on_pads(
     The pads begin at `pad_work.tilts` of the last time, and, from the third time on, of the one
     before it; those of which `pad_work.on` says so have a film.
     """
+    film, work, warmth = refer(film), refer(work), refer(warmth)
+    pads, pad_work = refer(pads), refer(pad_work)
     before, new, given, own = work.places[0], work.places[1], work.places[2], pad_work.tilts
     count, resting = pad_work.on.size, begin == 0
     step_before, thin, light = 0.0, states[0, THIN], 1.0
@@ -382,7 +385,7 @@ def solve_on_pads(
                         put_on(work, pads, pad_work, q, omega, j, holds)
                         changed = True
                 if changed:
-                    set_out(film, work, pads, pad_work, q, True)
+                    set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif resting:
                 pass
             elif not other and _other_pads(work, pads, pad_work, q, new, omega):

@@ -58,7 +58,8 @@ def factorise(ring):
     The columns of the balance are diagonally dominant but for the axial terms, which are positive
     definite, so that the pivots need no search.
     """
-    block, left, right, ahead, behind, corner, row = ring
+    block, left, right, corner, row = ring.block, ring.left, ring.right, ring.corner, ring.row
+    ahead, behind = ring.ahead, ring.behind
     nx, m, wide = block.shape
     last = nx - 1
     corner[:] = 0.0
@@ -126,7 +127,8 @@ def _invert(block, i, row):
 @inner
 def substitute(ring, columns, count):
     """Solve for the first `count` of `columns` (c, nx, L) in place, after `factorise`."""
-    block, left, right, ahead, behind, _, row = ring
+    block, left, right, row = ring.block, ring.left, ring.right, ring.row
+    ahead, behind = ring.ahead, ring.behind
     nx, m, wide = block.shape
     last = nx - 1
     for i in range(nx):

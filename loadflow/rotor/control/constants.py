@@ -85,7 +85,7 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
     if None in stated.values():
         raise InputError(f"{turbine.name}: control gains that follow from the rotor are not found")
     c, s, drivetrain = turbine.control, turbine.supervision, turbine.drivetrain
-    return Controller(
+    made = Controller(
         **stated,
         region_15_start=c.region_15_start,
         region_2_start=c.region_2_start,
@@ -115,3 +115,5 @@ def controller(turbine: Turbine, individual_pitch: bool = False) -> Controller:
         individual_gain=c.individual_gain if individual_pitch else 0.0,
         individual_limit=c.individual_limit,
     )
+    # a turbine that states whole numbers is not to have the loop compiled once more for these
+    return Controller._make(one if isinstance(one, np.ndarray) else float(one) for one in made)
