@@ -59,6 +59,10 @@ BASES = {
     "periodic loads": {
         "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
     },
+    "periodic loads, tilted": {
+        "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}},
+        "reduction": {"method": "periodic", "bounds": [0.05, 0.3]}, "results": ["journal.film"],
+    },
     "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
     "tilted film": {
         "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}, "reduction": FEW,
@@ -332,6 +336,7 @@ WALKED = {
     "turbulent film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "periodic loads": ("reduction",),
+    "periodic loads, tilted": ("journal.tilt", "journal.alignment", "reduction"),
     "stationary loads": ("reduction",),
     "tilted film": ("shaft", "journal"),
     "rotor dynamics": ("dynamics",),

@@ -53,6 +53,8 @@ from loadflow.turbines.similarity import factor_of_power
 
 Positive = Annotated[float, Field(gt=0)]
 
+_ROW = np.zeros((1, 2))
+
 
 class Scene(Section, BaseModel):
     """What is wanted, and from what; see the modules of the sections for units.
@@ -169,16 +171,13 @@ class Scene(Section, BaseModel):
             for place in journal.bearings:
                 one = journal.at(place)
                 film = one.film_model.isothermal().closing()
-                line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+                held, free = Line(tilt=_ROW, bend=_ROW), Line(moment=_ROW)
+                lies = held if self.shaft.bends_at(place) else free
+                line = lies if journal.tilt else Line()
                 steps = Steps(None, periodic=True)
                 why = why_not("in_motion", film, one.geometry, line, steps)
                 if why is not None:
                     raise ValueError(f'reduction.method = "periodic", journal: {why}')
-                if journal.tilt and self.shaft.bends_at(place):
-                    raise ValueError(
-                        'reduction.method = "periodic": a closed orbit does not know the tilt of a '
-                        "shaft with a beam; leave out journal.tilt or the beam"
-                    )
         return self
 
     @model_validator(mode="after")
