@@ -24,7 +24,7 @@ from loadflow.scene.bearings import Rolling, check_capacities, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
-from loadflow.scene.dynamics import Dynamics
+from loadflow.scene.dynamics import Dynamics, check_dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
@@ -206,6 +206,11 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _beside_the_shaft_bearings_swing(self) -> Self:
         check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
+        return self
+
+    @model_validator(mode="after")
+    def _can_vibrate(self) -> Self:
+        check_dynamics(self.dynamics, self.results, self.journal, self.rolling, self.shaft)
         return self
 
     @model_validator(mode="after")
