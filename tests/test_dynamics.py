@@ -23,6 +23,7 @@ from loadflow.journal import (
 )
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
+from loadflow.shaft import Beam, Disc, LineSupport, ShaftLine, ShaftSection, modes
 from loadflow.stages import dynamics, shaft
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
@@ -161,4 +162,136 @@ def test_the_command_line_writes_the_table(tmp_path):
         [],
         ["--over-rpm", "1", "2", "3", "--speed-rpm", "3"],
     ):
+        assert isinstance(CliRunner().invoke(app, [*line, *wrong]).exception, InputError)
+
+
+# --- rolling bearings --------------------------------------------------------------------------
+
+BARRELS = {"rollers": 20, "slices": 6, "roller_diameter": 0.07, "roller_length": 0.12,
+           "pitch_diameter": 1.2, "contact_angle": 0.2}  # fmt: skip
+ROWS = {"rollers": 60, "roller_diameter": 0.05, "roller_length": 0.05, "pitch_diameter": 2.0}
+CONES = BARRELS | {"rows": 2, "row_spacing": 0.25, "contact_angle": 0.35, "clearance": -5e-5}
+ON_ROLLERS = {
+    "name": "rollers",
+    "accuracy": "given",
+    "results": ["rolling.dynamics"],
+    "shaft": {"two_point": {"beam": {"supports": [{}, {"takes_moment": True}]}}},
+    "bearings": {
+        "N": {"kind": "spherical", "geometry": BARRELS},
+        "N2": {"kind": "roller", "geometry": CONES},
+    },
+}
+
+
+def vibration(**keys):
+    scene = make_scene(ON_ROLLERS | keys)
+    inputs = {"loads": HUB, "shaft": shaft.bearing_loads(scene, None, {"loads": HUB})}
+    return dynamics.dynamics(scene, None, inputs)
+
+
+def test_a_run_tabulates_rolling_bearings_as_it_does_journal_bearings(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,))
+    loads = {"source": "files", "files": [str(cube)]}
+    asked = {"unbalance": 100.0, "points": 3}
+    result = lf.run(make_scene(ON_ROLLERS | {"loads": loads, "dynamics": asked}), out=tmp_path)
+    assert result.failures == {}
+    found = result.tree["dynamics"].to_dataset()
+    name = str(found["case"].values[0])
+    assert list(found["bearing"].values) == ["N", "N2"]
+    assert float(found["residual"].max()) < 1e-8
+    assert float(found["unbalance_amplitude"].max()) > 0
+    assert (found["damping_ratio"] > 0).all()
+    assert (found["damping_ratio"] < 0.5 * 0.012).all()  # at most half of what the contacts lose
+    for bearing in ("N", "N2"):
+        table = pd.read_csv(result.path / f"coefficients/{name}_{bearing}.csv")
+        assert list(table)[:5] == ["frequency", "kxx", "kxy", "kyx", "kyy"]
+        there = found.sel(bearing=bearing, case=name)
+        assert table["kxy"][1] == pytest.approx(float(there["stiffness"][0, 1]), rel=1e-6)
+        # the steel loses the same in every cycle
+        assert table["cxx"][0] / table["cxx"][2] == pytest.approx(3.0, rel=0.05)
+    assert "Rotor dynamics" in result.report.read_text(encoding="utf-8")
+
+
+def test_dry_rollers_without_loss_are_the_springs_that_a_shaft_on_films_has_of_them():
+    geometry = {"bearings": {
+        "N": {"kind": "journal", "grid": [24, 8]}, "N2": {"kind": "roller", "geometry": CONES},
+    }}  # fmt: skip
+    line = {"two_point": {"beam": {"supports": [
+        {"radial": 4e9}, {"stiffness": "rolling", "takes_moment": True}]}}}  # fmt: skip
+    films, rollers = (
+        vibration(**geometry, shaft=line, results=[result], **more)
+        for result, more in (
+            ("journal.dynamics", {}),
+            ("rolling.dynamics", {"dynamics": {"contact_model": "dry", "loss": 0.0}}),
+        )
+    )
+    assert "N" not in rollers.children
+    both = vibration(
+        **geometry, shaft=line, results=["journal.dynamics", "rolling.dynamics"],
+        dynamics={"contact_model": "dry", "loss": 0.0},
+    )  # fmt: skip
+    for name in ("natural_frequency", "damping_ratio"):
+        np.testing.assert_allclose(
+            both["two_point"][name], films["two_point"][name], rtol=1e-6, atol=1e-9
+        )
+
+
+def test_films_and_the_support_change_what_rollers_hold():
+    wet, dry = (vibration(dynamics={"contact_model": model}) for model in ("film", "dry"))
+    k = [tree["N"]["stiffness"].values[0, 0, 0] for tree in (wet, dry)]
+    assert 0.9 * k[1] < k[0] < k[1]
+    assert dict(wet["N2"].sizes)["dof"] == 4
+    free = vibration(shaft={"two_point": {"beam": {}}})
+    assert dict(free["N2"].sizes)["dof"] == 2
+
+
+def test_a_mode_has_the_loss_of_the_steel_at_its_own_frequency():
+    """A rigid disc on springs that lose ψ in each cycle: ζ = ψ/2 however slow the shaft turns."""
+    psi, k, mass = 0.01, 2e9, 1e5
+    line = ShaftLine(Beam((ShaftSection(2.0),)), 0.2, (Disc(0.1, mass),), density=0.0)
+
+    def supports(frequency):
+        return [LineSupport(0.1, k * np.eye(2), psi * k / frequency * np.eye(2)),
+                LineSupport(0.0, 1e-3 * np.eye(2)), LineSupport(0.2, 1e-3 * np.eye(2))]  # fmt: skip
+
+    found = modes(line, supports, speed=1.2, count=2)
+    np.testing.assert_allclose(found["natural_frequency"], np.sqrt(k / mass), rtol=1e-4)
+    np.testing.assert_allclose(found["damping_ratio"], psi / 2, rtol=1e-4)
+    assert found.attrs["largest_growth"] < 0
+    # a damper of the shaft's own frequency would not let it swing at all
+    assert not (modes(line, supports(1.2), 1.2, count=2)["damping_ratio"] < 0.5).any()
+
+
+@pytest.mark.parametrize(
+    ("keys", "words"),
+    [
+        ({"results": ["rolling.dynamics", "journal.dynamics"],
+          "bearings": {"N": [{"kind": "journal"}, {"kind": "spherical", "geometry": BARRELS}]}},
+         "N has a journal and a rolling bearing"),
+        ({"shaft": {"moment": {}}, "bearings": {"M": {"kind": "three-row", "geometry": {
+            "support": ROWS, "retaining": ROWS, "radial": ROWS}}}}, 'contact_model = "film"'),
+        ({"shaft": {"two_point": {}, "yaw": {}}, "bearings": {"Y": {"kind": "ball", "geometry": {
+            "balls": 60, "ball_diameter": 0.06, "pitch_diameter": 2.0, "groove_radius": 0.0312},
+            "oscillation": {"amplitude": 0.5, "frequency": 0.01}}}}, "Y swings"),
+    ],
+)  # fmt: skip
+def test_rolling_bearings_that_cannot_be_tabulated_are_named(keys, words):
+    with pytest.raises(InputError, match=words):
+        make_scene(ON_ROLLERS | keys)
+
+
+def test_the_command_line_writes_the_table_of_a_rolling_bearing(tmp_path):
+    file = tmp_path / "balls.csv"
+    line = ["rolling", "--balls=60", "--ball-diameter=0.06", "--pitch-diameter=2"]
+    line += ["--groove-radius=0.0315", "--force-z=1e6", f"--coefficients={file}", "--json"]
+    rows = []
+    for more in ([], ["--loss=0.02"], ["--oil=lgep-2"]):
+        answer = CliRunner().invoke(app, [*line, "--over-rpm", "6", "12", "3", *more])
+        assert answer.exit_code == 0, answer.output
+        rows.append(json.loads(answer.stdout)["rows"])
+        assert len(rows[-1]) == len(pd.read_csv(file)) == 3
+    dry, lossy, wet = (one[0] for one in rows)
+    assert lossy["cxx"] == pytest.approx(2 * dry["cxx"])
+    assert wet["kxx"] < dry["kxx"] == lossy["kxx"]
+    for wrong in ([], ["--speed-rpm=6", "--hardness=600"], ["--speed-rpm=6", "--loss=2"]):
         assert isinstance(CliRunner().invoke(app, [*line, *wrong]).exception, InputError)

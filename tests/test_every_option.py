@@ -43,6 +43,7 @@ CALLS = {
         "rings": [*BALLS, "--outer-ring", "0.1", "0.15", "1.1", "--speed-rpm=10"],
         "life": [*BALLS, "--speed-rpm=10", "--oil=lgep-2"],
         "scene": ["--scene=SCENE", "--force-x=1e5"],
+        "table": [*BALLS, "--speed-rpm=10", "--coefficients=OUT/k.csv", "--oil=lgep-2"],
     },
     "thrust": {"taper": [*COLLAR, "--taper=1e-4"], "step": [*COLLAR, "--step=1e-4"]},
     "cone": {"rings": CONES, "segments": [*CONES, "--pads=6", "--taper=8e-5"]},
@@ -102,6 +103,7 @@ VALUES = {
         "force_y": ["1e5"], "force_z": ["1.1e6"], "moment_x": ["1e5"], "moment_y": ["9e5"],
         "speed_rpm": ["11"], "oil": ["lgwm-2"], "temperature_c": ["60"],
         "cleanliness": ["grease, severe contamination"],
+        "coefficients": ["OUT/other.csv"], "over_rpm": ["6", "12", "2"], "loss": ["0.02"],
     },
     "thrust": {
         "force": ["6e5"], "speed_rpm": ["13"], "pads": ["7"], "inner_radius": ["0.82"],

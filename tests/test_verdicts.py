@@ -15,7 +15,7 @@ from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_tilt import carries_thrust
 from loadflow.studies.run_lifetime import run_lifetime
-from loadflow.studies.uncarried import empty_places
+from loadflow.studies.uncarried import located, uncarried
 from loadflow.studies.verdicts import verdicts
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
@@ -137,15 +137,80 @@ def test_a_force_along_the_shaft_at_a_place_without_a_bearing_is_carried_by_noth
     )
 
 
+def loaded(solved, room="journal"):
+    """Tables of a run in which some bearings are solved, with 9 kN along the shaft everywhere."""
+    places, names = ["N", "N2", "M"], ("largest_load", "largest_axial_load")
+    loads = {name: (("case", "bearing"), np.full((1, 3), 9e3)) for name in names}
+    loads["largest_axial_load_time"] = ("case", "bearing"), np.full((1, 3), 4.0)
+    shaft = xr.Dataset(loads, {"case": ["a"], "bearing": places})
+    films = {"largest_axial_load": ("bearing", np.zeros(len(solved)))}
+    return {"shaft": shaft, room: xr.Dataset(films, {"bearing": solved})}
+
+
+ROLLERS = {"kind": "roller", "geometry": {"rollers": 20, "roller_diameter": 0.05,
+           "roller_length": 0.05, "pitch_diameter": 1.0}}  # fmt: skip
+BARRELS = {"kind": "spherical", "geometry": ROLLERS["geometry"] | {"contact_angle": 0.2}}
+COLLAR = {"kind": "thrust", "geometry": {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2,
+          "pad_angle": 0.7, "taper": 1e-4}}  # fmt: skip
+
+
 def test_only_shafts_whose_bearings_are_solved_need_one_that_locates():
     """A three-point shaft is located at N; a moment bearing beside it is another arrangement."""
     film = {"kind": "journal"}
     both = {"name": "x", "shaft": {"three_point": {}, "moment": {}}, "bearings": {"N": film}}
-    assert [*empty_places(make_scene(both), {"N"})] == []
+    assert [*located(make_scene(both), loaded(["N"]))] == []
     second = {"name": "x", "shaft": {"two_point": {}}, "bearings": {"N": film, "N2": film}}
-    assert [*empty_places(make_scene(second), {"N", "N2"})] == []
+    assert [*located(make_scene(second), loaded(["N", "N2"]))] == []
     first = {"name": "x", "shaft": {"two_point": {}, "moment": {}}, "bearings": {"N": film}}
-    assert [*empty_places(make_scene(first), {"N"})] == ["N2"]
+    (found,) = located(make_scene(first), loaded(["N"]))
+    assert (found.place, found.carried) == ("N2", False)
+
+
+@pytest.mark.parametrize(
+    ("here", "there", "results", "subject", "words"),
+    [
+        ({"kind": "journal"}, BARRELS, ["journal.film"], "rolling N2",
+         "9 kN along the shaft is carried by N2, a SphericalRollerBearing; no result of it"),
+        ({"kind": "journal"}, COLLAR, ["journal.film"], "thrust N2", "carried by N2, a thrust"),
+        (BARRELS, COLLAR, ["rolling.life"], "thrust N2", "carried by N2, a thrust"),
+        ({"kind": "journal"}, ROLLERS, ["journal.film"], "",
+         "a bearing of kind roller stands there, which carries no thrust"),
+        (BARRELS, {"kind": "journal"}, ["rolling.life"], "",
+         "a journal bearing stands there, which carries no thrust"),
+    ],
+)  # fmt: skip
+def test_what_carries_the_thrust_is_said_of_a_bearing_without_results(
+    here, there, results, subject, words
+):
+    data = {"name": "x", "shaft": {"two_point": {}}, "bearings": {"N": here, "N2": there}}
+    scene, room = make_scene(data | {"results": results}), results[0].split(".")[0]
+    tables = loaded(["N"], room)
+    (found,) = uncarried(scene, tables)
+    carried = bool(subject)
+    assert found.holds == carried
+    assert found.value == (0.0 if carried else 9e3)
+    assert words in found.note
+    assert found.subject == (subject or f"{room} arrangement")
+    if carried and room == "journal":
+        assert carries_thrust(scene, tables) == "N2, up to 9 kN"
+    if carried:  # with results of its own it is judged by itself
+        own = loaded(["N", "N2"] if room == subject.split()[0] else ["N2"], subject.split()[0])
+        assert [*uncarried(scene, tables | own)] == []
+
+
+def test_a_collar_beside_a_journal_bearing_carries_without_being_asked(cube, tmp_path):
+    film = FILM | {"kind": "journal", "motion": "quasi-static"}
+    scene = scene_of(
+        cube, journal=None, rolling=None, bearings={"N": film, "N2": [film, COLLAR]},
+        results=["journal.film"], accuracy="given",
+    )  # fmt: skip
+    done = lf.run(scene, out=tmp_path, report=False)
+    (found,) = (v for v in done.verdicts if "along the shaft" in v.quantity)
+    assert (found.subject, found.answer) == ("thrust N2", "holds")
+    assert "carried by N2, a thrust" in found.note
+    largest = float(done.tree["journal"]["largest_axial_load"].max())
+    assert f"{largest / 1e3:.0f} kN" in found.note
+    assert carries_thrust(scene, tables(done)) == f"N2, up to {largest / 1e3:.0f} kN"
 
 
 def test_limits_are_those_of_the_scene_and_say_so(run):

@@ -145,6 +145,9 @@ def _journal(scene):
 
 
 def _rolling(scene):
+    if scene.results == ["rolling.dynamics"]:
+        yield from _dynamics(scene)
+        return
     if any(part.catalogue is not None for part in scene.rolling.bearings.values()):
         yield friction.losses(scene, ONE, inputs(scene))
     # with the effect of the rings on, too, as the run's own check has it
@@ -161,6 +164,9 @@ def _thrust(scene):
 
 
 def _friction(scene):
+    if scene.results == ["rolling.dynamics"]:
+        yield from _dynamics(scene)
+        return
     yield friction.losses(scene, ONE, inputs(scene))
     yield rolling.load_distribution(scene, ONE, inputs(scene))
 

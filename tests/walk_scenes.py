@@ -59,6 +59,10 @@ BASES = {
     "periodic loads": {
         "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
     },
+    "periodic loads, tilted": {
+        "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}},
+        "reduction": {"method": "periodic", "bounds": [0.05, 0.3]}, "results": ["journal.film"],
+    },
     "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
     "tilted film": {
         "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}}, "reduction": FEW,
@@ -67,6 +71,17 @@ BASES = {
                        "dynamics": {"unbalance": 50.0}, "results": ["journal.dynamics"]},
     "rotor dynamics, rigid": {"journal": FILM, "shaft": {"two_point": {}},
                               "results": ["journal.dynamics"]},
+    "rolling dynamics": {
+        "shaft": {"two_point": {"beam": {"supports": [{}, {"takes_moment": True}]}}},
+        "rolling": {"bearing": "N2", "geometry": TAPERED, "mounting": {
+            "inner_share": 1.1}},
+        "dynamics": {"unbalance": 50.0}, "results": ["rolling.dynamics"]},
+    "rolling dynamics, dry": {
+        "shaft": {"moment": {}}, "rolling": {"bearing": "M", "geometry": BALLS},
+        "dynamics": {"contact_model": "dry"}, "results": ["rolling.dynamics"]},
+    "rolling dynamics, proportional": {
+        "shaft": {"two_point": {"beam": {}}}, "rolling": {"bearing": "N", "geometry": BARRELS},
+        "dynamics": {"contact_model": "proportional"}, "results": ["rolling.dynamics"]},
     "rigid and tilted": {
         "journal": FILM | {"tilt": True}, "shaft": {"two_point": {}}, "reduction": FEW,
     },
@@ -332,10 +347,17 @@ WALKED = {
     "turbulent film": ("journal",),
     "film in motion": ("journal", "reduction"),
     "periodic loads": ("reduction",),
+    "periodic loads, tilted": ("journal.tilt", "journal.alignment", "reduction"),
     "stationary loads": ("reduction",),
     "tilted film": ("shaft", "journal"),
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
+    "rolling dynamics": (
+        "dynamics", "friction",
+        *(f"rolling.{key}" for key in ("limits", "rings", "inner_ring", "outer_ring")),
+    ),
+    "rolling dynamics, dry": ("dynamics", "friction"),
+    "rolling dynamics, proportional": ("dynamics",),
     "rigid and tilted": ("journal",),
     "worn bores": tuple(
         f"wear.{key}"

@@ -207,6 +207,15 @@ def _coefficients(
 
     if series is not None or force[0] is None:
         raise InputError("--coefficients: give one load with --force-x, no --series")
+    rows = _speeds(speed_rpm, over_rpm)
+    table = journal_coefficients(file, (force[0], force[1]), rows, bearing, film)
+    _show_coefficients(file, table, as_json)
+
+
+def _speeds(
+    speed_rpm: float | None, over_rpm: tuple[float, float, int] | None
+) -> tuple[float, float, int]:
+    """First and last speed of a table, rad/s, and how many."""
     if (speed_rpm is None) == (over_rpm is None):
         raise InputError("--coefficients: give either --speed-rpm or --over-rpm")
     rows = (speed_rpm, speed_rpm, 1) if speed_rpm is not None else over_rpm
@@ -214,13 +223,10 @@ def _coefficients(
     first, last, count = rows
     if count < 1 or (count > 1 and not 0 < first < last):
         raise InputError(f"--over-rpm {first:g} {last:g} {count}: 0 < first < last, one or more")
-    table = journal_coefficients(
-        file,
-        (force[0], force[1]),
-        (first * math.pi / 30, last * math.pi / 30, count),
-        bearing,
-        film,
-    )
+    return first * math.pi / 30, last * math.pi / 30, count
+
+
+def _show_coefficients(file: Path, table: list[dict[str, float]], as_json: bool) -> None:
     if as_json:
         print_json({"file": str(file), "rows": table})
         return
@@ -277,11 +283,32 @@ def rolling(
     cleanliness: Annotated[
         str, typer.Option(help="System and class of ISO 281 annex A; with --oil.")
     ] = "grease, normal cleanliness",
+    coefficients: Annotated[
+        Path | None,
+        typer.Option(
+            help="Table of stiffness and damping to write, .csv, with the columns of ROSS, of the "
+            "aligned bearing with rigid rings; its rows are --speed-rpm, or --over-rpm. With --oil "
+            "contacts have films."
+        ),
+    ] = None,
+    over_rpm: Annotated[
+        tuple[float, float, int] | None,
+        typer.Option(help="Speeds of --coefficients: first, last (1/min), and how many."),
+    ] = None,
+    loss: Annotated[
+        float,
+        typer.Option(help="Share of its stiffness that the steel loses; with --coefficients."),
+    ] = 0.01,
     as_json: AsJson = False,
 ) -> None:
     """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
     from loadflow.rolling import Lubrication
-    from loadflow.studies.rolling_point import bearing_of_scene, rolling_point, slewing_bearing
+    from loadflow.studies.rolling_point import (
+        bearing_of_scene,
+        rolling_coefficients,
+        rolling_point,
+        slewing_bearing,
+    )
     from loadflow.tribology import lubricant
 
     measures: dict[str, Any] = {
@@ -313,6 +340,20 @@ def rolling(
     if oil is None:
         refuse("they count with an oil; give --oil", "temperature_c", "cleanliness")
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
+    if coefficients is None:
+        refuse("they are of a table: give its file with --coefficients", "over_rpm", "loss")
+    else:
+        refuse("K and C over speed are those of rigid rings", "inner_ring", "outer_ring", "wall")
+        refuse(
+            "the table has no safety and no life",
+            "hardness", "life_hardness_factor", "cleanliness",
+        )  # fmt: skip
+        warm = None if oil is None else (oil, temperature_c + 273.15)
+        table = rolling_coefficients(
+            coefficients, found[0], force, moment, _speeds(speed_rpm, over_rpm), warm, loss
+        )
+        _show_coefficients(coefficients, table, as_json)
+        return
     speed = None if speed_rpm is None else speed_rpm * math.pi / 30
     lubrication = None
     if oil is not None:

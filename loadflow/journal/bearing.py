@@ -304,8 +304,9 @@ class JournalBearing(JournalGeometry):
             What the shaft applies to the bearing about its middle, N m; the shaft then tilts
             freely. Without it and `tilt` the shaft stays aligned.
         tilt, bend : array_like (n, 2), optional
-            How the shaft lies at each time, as in `equilibrium`, straight lines between. With any
-            of the three the result has the `tilt` and `moment` of the film and its asperities.
+            How the shaft lies at each time, as in `equilibrium`, straight lines between; those of a
+            period end as they begin. With any of the three the result has the `tilt` and `moment`
+            of the film and its asperities.
         **keywords
             Fields of `Film` and of `Control`.
 

@@ -72,4 +72,5 @@ from .rings.transient import Inertia as Inertia
 from .rings.transient import Transient as Transient
 from .rings.transient import transient_response as transient_response
 from .roller_raceways import RollerRaceways as RollerRaceways
+from .stiffness.over_speed import coefficients_over_speed as coefficients_over_speed
 from .stiffness.rotor_coefficients import rotor_coefficients as rotor_coefficients

@@ -1,4 +1,4 @@
-"""Stiffness and damping of the films, and the shaft line on them, on a report page."""
+"""Stiffness and damping of the bearings, and the shaft line on them, on a report page."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from loadflow.report import Section, Table
 
 
 def dynamics_section(data: xr.Dataset) -> Section:
-    """Tabulate stiffness and damping of the films, and the modes of each shaft line."""
+    """Tabulate stiffness and damping of the bearings, and the modes of each shaft line."""
     cases = [str(name) for name in data["case"].values]
     names = [(a, b) for a in data["dof"].values[:2] for b in data["along"].values[:2]]
     rows = [
@@ -24,10 +24,11 @@ def dynamics_section(data: xr.Dataset) -> Section:
     ]
     entry = [f"{a[-1]}{b[-1]}" for a, b in names]
     heads = [f"K {e}, GN/m" for e in entry] + [f"C {e}, GN s/m" for e in entry]
-    tables = [Table("Films at mean load and speed", ["load case", *heads], rows)]
+    tables = [Table("Bearings at mean load and speed", ["load case", *heads], rows)]
     text = (
-        "Axes of the film: x down, y to the left looking downwind. Over speed: the tables in the "
-        "folder coefficients, as ROSS reads them."
+        "Axes: x down, y to the left looking downwind. C belongs to a vibration at the speed of "
+        "the shaft; modes on rolling bearings have it at their own frequencies. Over speed: the "
+        "tables in the folder coefficients, as ROSS reads them."
     )
     if "natural_frequency" in data:
         tables.append(_modes(data, cases))

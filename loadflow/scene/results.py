@@ -20,6 +20,7 @@ Result = Literal[
     "rolling.loads",
     "rolling.life",
     "rolling.friction",
+    "rolling.dynamics",
     "thrust.film",
 ]
 
@@ -33,11 +34,12 @@ RESULTS: dict[Result, str] = {
     "rolling.loads": "Forces and pressures of the rolling elements, static safety.",
     "rolling.life": "Rating life and modified life.",
     "rolling.friction": "Friction, film parameter and slip of rolling bearings.",
+    "rolling.dynamics": "Vibration of the shaft on its rolling bearings, their K and C over speed.",
     "thrust.film": "Films of thrust collars and pairs of cones.",
 }
 """Every result, in words."""
 
-BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear")
+BY_NAME: tuple[Result, ...] = ("journal.dynamics", "journal.wear", "rolling.dynamics")
 """Results that are computed only where a scene asks for them by name."""
 
 OF_PLACES: tuple[Result, ...] = tuple(name for name in get_args(Result) if name not in BY_NAME)

@@ -24,7 +24,7 @@ from loadflow.scene.bearings import Rolling, check_capacities, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
-from loadflow.scene.dynamics import Dynamics
+from loadflow.scene.dynamics import Dynamics, check_dynamics
 from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
@@ -53,6 +53,8 @@ from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
 Positive = Annotated[float, Field(gt=0)]
+
+_ROW = np.zeros((1, 2))
 
 
 class Scene(Section, BaseModel):
@@ -170,16 +172,13 @@ class Scene(Section, BaseModel):
             for place in journal.bearings:
                 one = journal.at(place)
                 film = one.film_model.isothermal().closing()
-                line = Line(moment=np.zeros((1, 2))) if journal.tilt else Line()
+                held, free = Line(tilt=_ROW, bend=_ROW), Line(moment=_ROW)
+                lies = held if self.shaft.bends_at(place) else free
+                line = lies if journal.tilt else Line()
                 steps = Steps(None, periodic=True)
                 why = why_not("in_motion", film, one.geometry, line, steps)
                 if why is not None:
                     raise ValueError(f'reduction.method = "periodic", journal: {why}')
-                if journal.tilt and self.shaft.bends_at(place):
-                    raise ValueError(
-                        'reduction.method = "periodic": a closed orbit does not know the tilt of a '
-                        "shaft with a beam; leave out journal.tilt or the beam"
-                    )
         return self
 
     @model_validator(mode="after")
@@ -208,6 +207,11 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _beside_the_shaft_bearings_swing(self) -> Self:
         check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
+        return self
+
+    @model_validator(mode="after")
+    def _can_vibrate(self) -> Self:
+        check_dynamics(self.dynamics, self.results, self.journal, self.rolling, self.shaft)
         return self
 
     @model_validator(mode="after")

@@ -9,6 +9,7 @@ from loadflow.journal import FilmHeat, Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.journal.surfaces import Reversed
 from loadflow.rolling.friction import Churning
+from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.places import SHARED
@@ -33,7 +34,7 @@ _RESULTS = {
     "reduction": ("reduction", "journal", "rolling.l", "thrust"),
     "journal": ("journal",),
     "thrust": ("thrust",),
-    "dynamics": ("journal.dynamics",),
+    "dynamics": ("journal.dynamics", "rolling.dynamics"),
     "wear": ("journal.wear",),
     "lifetime": ("journal.film", "journal.wear", "thrust", "rolling.life", "rolling.friction"),
     "rolling": ("rolling",),
@@ -380,7 +381,14 @@ def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
-    films = set(scene.journal.bearings)
-    if not any(c.beam is not None and films & set(c.bearings) for c in scene.shaft.concepts):
+    places: set[str] = set(scene.journal.bearings) if OF_FILMS in scene.results else set()
+    kinds = ["journal"] if places else []
+    if OF_ROLLING in scene.results:
+        places |= {*turning(scene.rolling, scene.shaft)}
+        kinds.append("rolling")
+    else:
+        for key in ("contact_model", "loss", "time_constant"):
+            yield key, f"the result {OF_ROLLING} is not wanted"
+    if not any(c.beam is not None and places & set(c.bearings) for c in scene.shaft.concepts):
         for key in ("modes", "unbalance"):
-            yield key, "no suspension with a journal bearing has a beam"
+            yield key, f"no suspension with a {' or '.join(kinds)} bearing has a beam"

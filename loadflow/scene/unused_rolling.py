@@ -9,6 +9,7 @@ from loadflow.rolling.friction import CatalogueEntry
 from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidates import candidates_of
+from loadflow.scene.dynamics import OF_ROLLING, turning
 from loadflow.scene.scene import Scene
 from loadflow.scene.section import keys_of
 
@@ -26,6 +27,27 @@ def of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
             yield f"{where}.{ring}", reason
         for key, reason in unused_of(part.mounting, part.geometry) if part.mounting else ():
             yield f"{where}.mounting.{key}", reason
+        for key, reason in _of_vibration(scene, part):
+            yield f"{where}.{key}", reason
+
+
+_OTHERS = ("rolling.life", "rolling.loads", "rolling.friction")
+
+
+def _of_vibration(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
+    """Keys of a bearing of which rotor dynamics are wanted, and nothing else."""
+    if OF_ROLLING not in scene.results or any(name in scene.results for name in _OTHERS):
+        return
+    if part.bearing not in turning(scene.rolling, scene.shaft):
+        yield "oscillation", f"{OF_ROLLING} is of bearings that turn with the rotor"
+    for key in ("limits", "inertia"):
+        if getattr(part, key) != keys_of(part)[key]:
+            yield key, f"of the results of rolling bearings only {OF_ROLLING} is wanted"
+    support = scene.shaft.coupled.get(part.bearing)
+    if support is None or support.stiffness != "rolling":
+        for key in ("rings", "inner_ring", "outer_ring"):
+            if getattr(part, key) not in (None, keys_of(part)[key]):
+                yield key, f"{OF_ROLLING} takes rigid rings"
 
 
 def _comes_with(scene: Scene, entry: CatalogueEntry) -> bool:
@@ -58,6 +80,12 @@ def mounted(scene: Scene) -> bool:
 _OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
 """Keys of friction that the modified life reads, too."""
 
+_OF_FILMS = ("lubricant", "temperature", "starvation")
+"""Keys of friction that stiffness and damping of contacts with a film read."""
+
+_OF_CLEARANCE = ("temperature", "ambient_temperature")
+"""Keys of friction that the clearance of a mounted bearing reads."""
+
 
 def _balances(part: FurtherBearing) -> bool:
     return part.geometry.friction_model is not None and part.oscillation is None
@@ -66,13 +94,17 @@ def _balances(part: FurtherBearing) -> bool:
 def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield the keys of friction that the rest of a scene leaves without effect, and why."""
     friction, bearings = scene.friction, scene.rolling.geometries.values()
+    films = OF_ROLLING in scene.results and scene.dynamics.contact_model == "film"
     if "rolling.friction" not in scene.results:
+        vibrate = _OF_FILMS if films else ()
+        rated = _OF_LIFE if any(r.startswith("rolling.l") for r in scene.results) else ()
+        warm = _OF_CLEARANCE if mounted(scene) else ()
         for key in type(friction).model_fields:
-            if key not in _OF_LIFE:
+            if key not in (*vibrate, *rated, *warm):
                 yield key, "the result rolling.friction is not wanted"
     if friction.conductance is None and not mounted(scene):
         yield "ambient_temperature", "no friction.conductance, no mounting of a bearing"
-    elif all(_balances(part) for part in scene.rolling.bearings.values()):
+    elif not films and all(_balances(part) for part in scene.rolling.bearings.values()):
         yield "temperature", "with a conductance each bearing has that of its heat balance"
     if "rolling.friction" not in scene.results:
         return

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -23,10 +24,15 @@ Floats = NDArray[np.float64]
 
 _STILL = 1e-6  # of a root's size: an imaginary part below this does not swing
 _INFINITE = 1e12  # of the scaled roots: those of rows without mass
+_TURNS, _SAME = 50, 1e-9  # of a mode at its own frequency, and its relative change in the last
 
 
 def modes(
-    line: ShaftLine, supports: Sequence[LineSupport], speed: float, *, count: int = 6
+    line: ShaftLine,
+    supports: Sequence[LineSupport] | Callable[[float], Sequence[LineSupport]],
+    speed: float,
+    *,
+    count: int = 6,
 ) -> xr.Dataset:
     """Natural frequencies, damping ratios and shapes of a shaft line at a speed.
 
@@ -34,8 +40,9 @@ def modes(
     ----------
     line : ShaftLine
         Shaft and discs.
-    supports : sequence of LineSupport
-        What carries it, with stiffness and damping at that speed.
+    supports : sequence of LineSupport, or callable
+        What carries it, with stiffness and damping at that speed; where these depend on the
+        frequency of vibration, the supports at one (rad/s): each mode is found at its own.
     speed : float
         Of the shaft, rad/s.
     count : int
@@ -49,14 +56,15 @@ def modes(
         against it, 0: along a line) and ``residual`` of the root; over (mode, part, node, dof)
         ``shape``, real and imaginary. Fewer modes than `count` if the others are overdamped:
         NaN. Attributes: ``largest_growth``, the largest real part of all roots, 1/s, of those that
-        do not swing, too; ``converged``, ``iterations`` (1: a direct solution).
+        do not swing, too; ``converged``, ``iterations`` (1: a direct solution; of modes at their
+        own frequencies the most that one takes).
 
     Raises
     ------
     InputError
         A support off the shaft or misshapen.
     SolverError
-        The matrices have no eigenvalues.
+        The matrices have no eigenvalues, or a mode is not found at its own frequency.
 
     Examples
     --------
@@ -68,11 +76,56 @@ def modes(
     >>> bool((found.damping_ratio > 0).all()), found.natural_frequency.units
     (True, 'rad/s')
     """
+    if count < 1:
+        raise InputError(f"count = {count}: must be 1 or more")
+    if callable(supports):
+        return _each_at_its_own(line, supports, speed, count)
+    return _modes(line, supports, speed, count)[0]
+
+
+def _each_at_its_own(
+    line: ShaftLine, supports: Callable[[float], Sequence[LineSupport]], speed: float, count: int
+) -> xr.Dataset:
+    """Modes on supports that depend on the frequency of vibration, each iterated at its own.
+
+    It is known by its number: damping that falls with the frequency leaves no mode below it out.
+    """
+    import xarray as xr
+
+    still = [replace(one, damping=None) for one in supports(abs(speed) or 1.0)]
+    undamped = _modes(line, still, speed, count)[0]["natural_frequency"].values
+    if np.isnan(undamped).all():
+        raise SolverError(f"the shaft line has no mode that swings at {speed:g} rad/s")
+    start, roots = _modes(line, supports(float(np.nanmax(undamped))), speed, count)
+    # what swings is taken at its own frequency, the others at that of the fastest mode
+    standing = roots[np.abs(roots.imag) <= _STILL * np.abs(roots)]
+    growth = [float(standing.real.max(initial=-math.inf))]
+    rows, most = [], 1
+    for row in range(count):
+        one, frequency = start.isel(mode=row), float(start["natural_frequency"][row])
+        for turn in range(1, _TURNS + 1):
+            if math.isnan(frequency):
+                break
+            one = _modes(line, supports(frequency), speed, row + 1)[0].isel(mode=row)
+            last, frequency = frequency, float(one["natural_frequency"])
+            if abs(frequency - last) <= _SAME * last:
+                growth.append(-float(one["damping_ratio"]) * frequency)
+                most = max(most, turn)
+                break
+        else:
+            raise SolverError(f"mode {row + 1} is not found: {last:g}, then {frequency:g} rad/s")
+        rows.append(one)
+    about = start.attrs | {"largest_growth": max(growth), "iterations": most}
+    return xr.concat(rows, "mode", combine_attrs="override").assign_attrs(about)
+
+
+def _modes(
+    line: ShaftLine, supports: Sequence[LineSupport], speed: float, count: int
+) -> tuple[xr.Dataset, NDArray[np.complexfloating]]:
+    """As `modes`, on supports that are the same at every frequency, and all roots, 1/s."""
     import xarray as xr
     from scipy.linalg import LinAlgError, eig
 
-    if count < 1:
-        raise InputError(f"count = {count}: must be 1 or more")
     system = assembled(line, supports)
     m, c, k, left = system.free(speed)
     follow = _following(m, c, k)
@@ -115,7 +168,7 @@ def modes(
         "residual": ("1", "what is missing of M λ² + C λ + K = 0, over its largest term"),
     }
     about = {"units": "1", "long_name": "shape of the mode, largest entry 1"}
-    return xr.Dataset(
+    found = xr.Dataset(
         {
             name: ("mode", row, {"units": units, "long_name": meaning})
             for (name, (units, meaning)), row in zip(names.items(), values)
@@ -138,6 +191,7 @@ def modes(
             "iterations": 1,
         },
     )
+    return found, roots
 
 
 def unbalance_response(

@@ -1,8 +1,9 @@
 """Stationary and periodic design loads of a bearing, as samples that the films and rollers read.
 
 The kinds are those of [Jonuschies 2015], 4.3.1 and 4.3.2. What governs a bearing (radial force or
-tilting moment) is reduced; the other load and the tilt of the shaft are those of the same instant,
-or their means.
+tilting moment) is reduced. Of stationary loads the other load and the tilt of the shaft are those
+of the same instant, or their means. Over a period the other load has its mean, and the shaft tilts
+and bends with the load as it did in the series.
 """
 
 from __future__ import annotations
@@ -32,6 +33,8 @@ Floats = np.ndarray
 
 CLOSING = 0.01
 """Allowed relative change of a frequency so that the orbit closes."""
+
+_LINE = ("tilt", "curvature")
 
 
 @dataclass(frozen=True)
@@ -136,6 +139,12 @@ def closed_samples(
         for name, (vectors, _) in loads.vectors.items()
     }
     several[loads.governing][:, 2], several[loads.governing][:, 1] = -closed[:, 0], closed[:, 1]
+    told: dict[str, float] = {}
+    pushed = to_film(loads.vectors[loads.governing][0])
+    for name in _LINE:
+        if name in several:
+            slope, told[f"{name}_left_out"] = _along(pushed, loads.vectors[name][0])
+            several[name] += (closed - pushed.mean(axis=0)) @ slope
     weight = np.full(time.size, loads.time.size / (time.size - 1))
     weight[-1] = 0.0  # the first again
     found = _labelled(
@@ -146,12 +155,25 @@ def closed_samples(
         several=several,
         names=None,
     )
-    told = {"closed": 1, "period": period, "harmonics": len(load.frequencies)}
+    told |= {"closed": 1, "period": period, "harmonics": len(load.frequencies)}
     if isinstance(bounds, FrequencyBounds):
         bounds = bounds.low, bounds.high
     if bounds is not None:
         told |= {"slow_bound": bounds[0], "fast_bound": bounds[1]}
     return found.assign_attrs(told)
+
+
+def _along(load: Floats, line: Floats) -> tuple[Floats, float]:
+    """How a tilt or bend (n, 3) goes with a load (n, 2): slope (2, 3), and the share it leaves.
+
+    Least squares over the series, so that the line follows each load at the instant it acts; what
+    is left is what other loads of the hub do to it, over all that it moves.
+    """
+    pushed, moved = load - load.mean(axis=0), line - line.mean(axis=0)
+    slope = np.linalg.lstsq(pushed, moved, rcond=None)[0]
+    across = np.sqrt(np.mean(moved[:, 1:] ** 2))
+    left = np.sqrt(np.mean((moved - pushed @ slope)[:, 1:] ** 2))
+    return slope, float(left / across) if across > 0 else 0.0
 
 
 def _labelled(

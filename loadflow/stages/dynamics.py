@@ -1,8 +1,10 @@
-"""Mean loads of a case → stiffness and damping of its films, and the shaft line's vibration."""
+"""Mean loads of a case → stiffness and damping of its bearings, and the shaft line's vibration."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,10 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.journal import coefficient_table, rotor_coefficients
 from loadflow.quantities import load_cases
+from loadflow.rolling import coefficients_over_speed
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
+from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept, Disc, LineSupport, ShaftLine, modes, unbalance_response
@@ -19,13 +24,15 @@ from loadflow.shaft.beam import Beam, BearingSupport
 from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.film_support import TURN
 from loadflow.stages.frames import to_film
-from loadflow.stages.rolling_at_work import as_stated
+from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.rolling_support import rolling_model
 from loadflow.stages.stage import Stage, always
 from loadflow.stages.summary import over_cases
 from loadflow.turbines import load_turbine
 
 Floats = np.ndarray
+
+_LOADS = ("force", "moment")
 
 STEEL = 7850.0
 """Density of a shaft whose mass is not given, kg/m³."""
@@ -35,41 +42,137 @@ _SLOPES = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, -1], [0, 0, 1, 0]], dt
 
 _AT_MEAN = ("stiffness", "damping", "eccentricity_ratio", "minimum_film")
 
+At = Callable[[float, float], xr.Dataset]
+"""Speed of the shaft and frequency of the vibration, rad/s → stiffness and damping of a bearing."""
+
 
 def dynamics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
-    """Tabulate the films of a case, one group per bearing, and each elastic suspension on them.
+    """Tabulate the bearings of a case, one group each, and each elastic suspension on them.
 
     Raises
     ------
     loadflow.errors.SolverError
-        The shaft stands in the mean, or a film has no equilibrium at one of the speeds.
+        The shaft stands in the mean, or a bearing has no equilibrium at one of the speeds.
     """
     mean = inputs["shaft"].load().mean("time")
     speed = float(inputs["loads"]["speed"].mean())
     if speed == 0.0:
-        raise SolverError("the shaft stands: no film has stiffness or damping")
-    films = {name: _film(scene, name, mean, speed) for name in scene.journal.bearings}
-    found = dict(films)
+        raise SolverError("the shaft stands: no bearing has stiffness or damping")
+    speeds = speed * np.union1d(
+        np.linspace(*scene.dynamics.speed_range, scene.dynamics.points), 1.0
+    )
+    tables: dict[str, xr.Dataset] = {}
+    follow: dict[str, At] = {}
+    for name in _films_of(scene):
+        tables[name] = _film(scene, name, mean, speeds)
+    for name, part in _rolling_of(scene).items():
+        follow[name] = _rolling(scene, part, mean)
+        tables[name] = _synchronous(follow[name], speeds).assign(_loads(mean, name))
+    bearings = _Bearings(tables, follow)
+    found = {name: table.assign_attrs(mean_speed=speed) for name, table in tables.items()}
     for name, concept in scene.shaft.suspensions.items():
-        if concept.beam is None or not set(concept.bearings) & set(films):
+        if concept.beam is None or not set(concept.bearings) & set(found):
             continue
-        found[name] = _vibration(scene, concept, films, mean, speed)
+        found[name] = _vibration(scene, concept, bearings, mean, speed)
     return xr.DataTree.from_dict(found)
 
 
-def _film(scene: Scene, name: str, mean: xr.Dataset, speed: float) -> xr.Dataset:
-    options, asked = scene.journal.at(name), scene.dynamics
-    shares = np.union1d(np.linspace(*asked.speed_range, asked.points), 1.0)
+@dataclass(frozen=True)
+class _Bearings:
+    """Tables of all bearings over speed, and those that depend on the frequency by themselves."""
+
+    tables: Mapping[str, xr.Dataset]
+    follow: Mapping[str, At]
+
+    def at(self, name: str, speed: float, frequency: float | None) -> tuple[Floats, Floats]:
+        """Stiffness and damping in the coordinates of the shaft line; synchronous by default."""
+        if name in self.follow and frequency is not None:
+            table = self.follow[name](speed, frequency)
+        else:
+            # exact at the speeds that are tabulated, which are all that are asked for
+            table = self.tables[name].sel(speed=speed, method="nearest")
+        size = table["stiffness"].shape[0]
+        turn = _SLOPES[:size, :size]
+        k, c = (turn.T @ table[part].values @ turn for part in ("stiffness", "damping"))
+        return k, c
+
+
+def _films_of(scene: Scene) -> list[str]:
+    """Journal bearings that are tabulated: all, or those that the shaft feels beside rollers."""
+    if OF_FILMS in scene.results:
+        return scene.journal.bearings
+    return [name for name, one in scene.shaft.coupled.items() if one.stiffness == "journal"]
+
+
+def _rolling_of(scene: Scene) -> dict[str, FurtherBearing]:
+    """Rolling bearings that are tabulated."""
+    return turning(scene.rolling, scene.shaft) if OF_ROLLING in scene.results else {}
+
+
+def _film(scene: Scene, name: str, mean: xr.Dataset, speeds: Floats) -> xr.Dataset:
+    options = scene.journal.at(name)
     here = mean.sel(bearing=name)
     force = here["force"].values.astype(float)
     line: dict[str, Any] = {key: to_film(value) for key, value in _line(options, here).items()}
     try:
-        table = rotor_coefficients(
-            options.geometry, to_film(force), speed * shares, options.film_model, **line
+        return rotor_coefficients(
+            options.geometry, to_film(force), speeds, options.film_model, **line
         )
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
-    return table.assign_attrs(mean_speed=speed)
+
+
+def _rolling(scene: Scene, part: FurtherBearing, mean: xr.Dataset) -> At:
+    """Stiffness and damping of a rolling bearing under its mean load, in the axes of a film.
+
+    Where its support takes the moment its rotations count, too; else it tilts freely.
+    """
+    name, asked = part.bearing, scene.dynamics
+    load, moment = (mean[what].sel(bearing=name).values.astype(float) for what in _LOADS)
+    tilting = _takes_moment(scene, name) and part.geometry.takes_moment
+    warm = as_stated(part, scene.friction).model_copy(update={"rings": "rigid"})
+    try:
+        result = rest(warm, load, moment * tilting)
+    except SolverError as error:
+        raise SolverError(f"bearing {name}: {error}") from error
+    options = friction_options(scene.friction, warm.modelled)
+
+    def at(speed: float, frequency: float) -> xr.Dataset:
+        table = coefficients_over_speed(
+            result, speed, whirl=abs(frequency / speed), tilt="kept" if tilting else "free",
+            options=options, model=asked.contact_model, loss=asked.loss,
+            time_constant=asked.time_constant,
+        ).isel(speed=0)  # fmt: skip
+        size = table["stiffness"].shape[0]
+        turn = TURN[:size, :size]
+        turned = {
+            what: table[what].copy(data=turn @ table[what].values @ turn.T)
+            for what in ("stiffness", "damping")
+        }
+        return table.assign(turned)
+
+    return at
+
+
+def _synchronous(at: At, speeds: Floats) -> xr.Dataset:
+    """Over the speed, of a vibration that turns with the shaft."""
+    rows = [at(float(speed), abs(float(speed))) for speed in speeds]
+    return xr.concat(rows, "speed", combine_attrs="override")
+
+
+def _loads(mean: xr.Dataset, name: str) -> dict[str, Any]:
+    """The mean force across the shaft, in the axes of a film."""
+    force = to_film(mean["force"].sel(bearing=name).values.astype(float))
+    return {"force": ("axis", force, {"units": "N", "long_name": "mean force on the bearing"})}
+
+
+def _takes_moment(scene: Scene, name: str) -> bool:
+    """Whether the support of a bearing takes the moment of the shaft."""
+    (concept,) = (one for one in scene.shaft.concepts if name in one.bearings)
+    if concept.beam is None:
+        return len(concept.bearings) == 1
+    supports = concept.beam.supports_of(len(concept.bearings))
+    return supports[concept.bearings.index(name)].takes_moment
 
 
 def _line(options: Journal, here: xr.Dataset) -> dict[str, Floats]:
@@ -77,20 +180,23 @@ def _line(options: Journal, here: xr.Dataset) -> dict[str, Floats]:
 
 
 def _vibration(
-    scene: Scene, concept: Concept, films: Mapping[str, xr.Dataset], mean: xr.Dataset, speed: float
+    scene: Scene, concept: Concept, bearings: _Bearings, mean: xr.Dataset, speed: float
 ) -> xr.Dataset:
     """Modes at the mean speed, and the response to unbalance over the range of speed."""
     line, asked = _shaft_of(scene, concept), scene.dynamics
-    found = modes(line, _supports(scene, concept, films, mean, speed), speed, count=asked.modes)
+
+    def supports(speed: float, frequency: float | None = None) -> list[LineSupport]:
+        return _supports(scene, concept, bearings, mean, speed, frequency)
+
+    carried: Sequence[LineSupport] | Callable[[float], Sequence[LineSupport]] = supports(speed)
+    if set(concept.bearings) & bearings.follow.keys():
+        carried = partial(supports, speed)
+    found = modes(line, carried, speed, count=asked.modes)
     if asked.unbalance == 0.0:
         return found
-    name = next(name for name in concept.bearings if name in films)
-    out = unbalance_response(
-        line,
-        lambda w: _supports(scene, concept, films, mean, w),
-        films[name]["speed"].values,
-        asked.unbalance,
-    )
+    name = next(name for name in concept.bearings if name in bearings.tables)
+    speeds = bearings.tables[name]["speed"].values
+    out = unbalance_response(line, supports, speeds, asked.unbalance)
     worst = out.attrs["residual"]
     return found.merge(out, combine_attrs="drop_conflicts").assign_attrs(
         found.attrs, unbalance_residual=worst
@@ -119,7 +225,12 @@ def _density(beam: Beam, end: float, mass: float) -> float:
 
 
 def _supports(
-    scene: Scene, concept: Concept, films: Mapping[str, xr.Dataset], mean: xr.Dataset, speed: float
+    scene: Scene,
+    concept: Concept,
+    bearings: _Bearings,
+    mean: xr.Dataset,
+    speed: float,
+    frequency: float | None,
 ) -> list[LineSupport]:
     """What carries the shaft at a speed: films, rolling bearings, given stiffness, or rigid."""
     assert concept.beam is not None
@@ -128,15 +239,11 @@ def _supports(
         concept.bearings, concept.positions, concept.beam.supports_of(len(concept.bearings))
     ):
         housing = (support.housing_vertical, support.housing_lateral)
-        if name in films:
-            # exact at the speeds that are tabulated, which are all that are asked for
-            at = films[name].sel(speed=speed, method="nearest")
-            size = at["stiffness"].shape[0]
-            turn = _SLOPES[:size, :size]
-            k, c = (turn.T @ at[part].values @ turn for part in ("stiffness", "damping"))
+        if name in bearings.tables:
+            k, c = bearings.at(name, speed, frequency)
             supports.append(LineSupport(position, k, c, housing))
-        elif (k := _stiffness(scene, name, support, mean)) is not None:
-            supports.append(LineSupport(position, k, None, housing))
+        elif (own := _stiffness(scene, name, support, mean)) is not None:
+            supports.append(LineSupport(position, own, None, housing))
         elif support.takes_moment and support.tilt is None:
             raise SolverError(
                 f"bearing {name}: rigid against tilting; a shaft line needs the numbers of its tilt"
@@ -170,7 +277,7 @@ def _stiffness(scene: Scene, name: str, support: BearingSupport, mean: xr.Datase
 
 
 def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
-    """Films at the mean speed (bearing, …, case); modes (suspension, mode, case)."""
+    """Bearings at the mean speed (bearing, …, case); modes (suspension, mode, case)."""
     return over_cases({case: _of_case(tree) for case, tree in parts.items()})
 
 
@@ -180,12 +287,14 @@ def _of_case(tree: xr.DataTree) -> xr.Dataset:
     lines = {name: node for name, node in nodes.items() if "natural_frequency" in node}
     speed = float(next(iter(films.values())).attrs["mean_speed"])
     at_mean = [
-        node[list(_AT_MEAN)].sel(speed=speed, method="nearest").drop_vars("speed")
+        node[[name for name in _AT_MEAN if name in node]]
+        .sel(speed=speed, method="nearest")
+        .drop_vars("speed")
         for node in films.values()
     ]
-    found = xr.concat(at_mean, "bearing", combine_attrs="drop_conflicts").assign_coords(
-        bearing=list(films)
-    )
+    found = xr.concat(
+        at_mean, "bearing", data_vars="all", join="outer", combine_attrs="drop_conflicts"
+    ).assign_coords(bearing=list(films))
     found = found.assign(mean_speed=((), speed, {"units": "rad/s", "long_name": "mean speed"}))
     if not lines:
         return found
@@ -206,7 +315,7 @@ def _modal(node: xr.Dataset) -> xr.Dataset:
 
 
 def tables(case: Case, tree: xr.DataTree) -> dict[str, str]:
-    """Stiffness and damping of each film as a table for rotor dynamics, by the name of its file."""
+    """Stiffness and damping of each bearing as a table for rotor dynamics, by its file's name."""
     return {
         f"coefficients/{case.name}_{name}.csv": coefficient_table(node.to_dataset())
         for name, node in tree.children.items()
@@ -226,17 +335,19 @@ def warnings(tree: xr.DataTree) -> list[str]:
     if not names:
         return []
     return [
-        f"dynamics: the shaft line is unstable in its films in {load_cases(len(names))}, "
-        f"{names[0]} among them: its whirl grows until the film stops it"
+        f"dynamics: the shaft line is unstable on its bearings in {load_cases(len(names))}, "
+        f"{names[0]} among them: its whirl grows until the films stop it"
     ]
 
 
 STAGE = Stage(
     "dynamics",
     run=dynamics,
-    results={"journal.dynamics": lambda scene: {}},
+    results={OF_FILMS: lambda scene: {}, OF_ROLLING: lambda scene: {}},
     needs=always("loads", "shaft"),
-    sections=lambda scene: ("journal", "shaft", "turbine", "rolling", "dynamics"),
+    sections=lambda scene: (
+        *("journal", "shaft", "turbine", "rolling", "friction", "dynamics", "results"),
+    ),
     summarise=summary,
     exports=tables,
     warnings=warnings,

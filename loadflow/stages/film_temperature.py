@@ -11,8 +11,12 @@ TEMPERATURE_SAMPLES = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 
 
-def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> float | None:
+def mean_temperature(
+    options: Journal, force: np.ndarray, speed: np.ndarray, **line: np.ndarray
+) -> float | None:
     """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
+
+    `line` is how the shaft lies, each (n, 2), as for an equilibrium.
 
     It is that of the mean friction and flow of `TEMPERATURE_SAMPLES` equilibria of the series.
 
@@ -30,6 +34,7 @@ def mean_temperature(options: Journal, force: np.ndarray, speed: np.ndarray) -> 
         options.film_model,
         weights=np.ones(some.size),
         strict=False,
+        **{name: rows[some] for name, rows in line.items()},
     )
     if not np.any(warm.converged):
         raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")

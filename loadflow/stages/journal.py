@@ -118,7 +118,7 @@ def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
 
 
 def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
-    """Film on the closed orbit under one period of a load.
+    """Film on the closed orbit under one period of a load, around the shaft as it lies then.
 
     Raises
     ------
@@ -127,9 +127,12 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     """
     vectors = reduced["force"].values
     force, speed = to_film(vectors), reduced["speed"].values
-    warm = mean_temperature(options, force, speed)
+    line: dict[str, Any] = {
+        name: to_film(rows) for name, rows in shaft_line(options, reduced).items()
+    }
+    warm = mean_temperature(options, force, speed, **line)
     held = options if warm is None else options.at_temperature(warm)
-    film, moment = held.film_model.closing(), to_film(reduced["moment"].values)
+    film = held.film_model.closing()
     try:
         with unresolved_counted():  # `film_summary` tells of them
             path = held.geometry.orbit(
@@ -138,7 +141,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
                 speed,
                 film,
                 periodic=True,
-                moment=moment if options.tilt else None,
+                **line,
             )
     except SolverError as error:
         raise SolverError(f"bearing {bearing}: {error}") from error
@@ -153,7 +156,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     )
     touching = np.zeros(speed.size, dtype=bool)
     _drop_contact(options, found, touching)
-    samples = of_samples(found, kept) | _loaded(vectors, touching)
+    samples = of_samples(found, kept) | _loaded(vectors, touching) | _lying(options, found)
     about = {name: path.attrs[name] for name in ("closure", "periods")} | {"motion": "periodic"}
     about |= _bounds(path)
     given = reduced[["time", "speed", "weight"]].assign(samples)

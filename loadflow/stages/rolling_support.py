@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
+from loadflow.rolling.stiffness.over_speed import condensed
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.shaft import BearingModel
 from loadflow.stages.rolling_at_work import rest
 
 Floats = np.ndarray
-
-_SOFT = 1e-9  # of the stiffest motion, below which nothing resists one
 
 
 def rolling_model(
@@ -39,17 +38,3 @@ def rolling_model(
         return motion, condensed(answer.stiffness, answer.contacts.scale, kept)
 
     return model
-
-
-def condensed(stiffness: Floats, scale: Floats, kept: list[int]) -> Floats:
-    """Stiffness (n, k, k) of the motions `kept`, while the others follow without a change of load.
-
-    A motion that nothing resists, such as that of cylindrical rollers along the shaft, follows by
-    nothing. `scale` (5,) makes all motions lengths.
-    """
-    rest = [k for k in range(stiffness.shape[-1]) if k not in kept]
-    even = stiffness * np.outer(scale, scale)
-    held, across = even[:, kept][:, :, kept], even[:, kept][:, :, rest]
-    follow = np.linalg.pinv(even[:, rest][:, :, rest], rcond=_SOFT, hermitian=True)
-    left = held - across @ follow @ across.swapaxes(-1, -2)
-    return left / np.outer(scale[kept], scale[kept])

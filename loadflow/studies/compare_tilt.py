@@ -16,7 +16,7 @@ from loadflow.shaft import bearing_loads
 from loadflow.shaft.options import Concept
 from loadflow.studies.compare_factor import SAMPLES
 from loadflow.studies.shaft_through import hollow_shaft, shaft_widths, through
-from loadflow.studies.uncarried import uncarried
+from loadflow.studies.uncarried import located
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -33,7 +33,11 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
         forces = tables["thrust"]["largest_axial_load"].max("case")
         k = int(np.argmax(forces.values))
         return f"{forces['bearing'].values[k]}, up to {float(forces[k]) / 1e3:.0f} kN"
-    left = [verdict.value for verdict in uncarried(scene, tables)]
+    left = []
+    for one in located(scene, tables):
+        if one.carried:
+            return f"{one.place}, up to {one.force / 1e3:.0f} kN"
+        left.append(one.force)
     if "journal" in tables and not left:
         left = [float(tables["journal"]["largest_axial_load"].max())]
     return f"none: needs a thrust bearing for {max(left) / 1e3:.0f} kN" if left else "none"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -166,12 +166,27 @@ def journal_coefficients(
     loadflow.errors.SolverError
         No equilibrium at one of the speeds.
     """
-    from loadflow.journal import coefficient_table, rotor_coefficients
+    from loadflow.journal import rotor_coefficients
+
+    return written_coefficients(
+        file, lambda: rotor_coefficients(bearing, force, np.linspace(*speeds), film)
+    )
+
+
+def written_coefficients(file: Path, made: Callable[[], xr.Dataset]) -> list[dict[str, float]]:
+    """Write what is `made` as a table for rotor dynamics, and return its rows.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The folder of the file is not there.
+    """
+    from loadflow.journal import coefficient_table
     from loadflow.storage import write_text
 
     if not file.parent.is_dir():
         raise InputError(f"{file}: its folder is not there")
-    text = coefficient_table(rotor_coefficients(bearing, force, np.linspace(*speeds), film))
+    text = coefficient_table(made())
     write_text(file, text)
     return [
         {name: float(value) for name, value in row.items()}

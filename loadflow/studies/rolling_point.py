@@ -12,10 +12,12 @@ import xarray as xr
 from loadflow.errors import InputError
 from loadflow.rolling import (
     FlexibleRings,
+    FrictionOptions,
     Lubrication,
     RollerRaceways,
     RollingBearing,
     SlewingBearing,
+    coefficients_over_speed,
     edge_contact,
     verdicts,
 )
@@ -25,7 +27,8 @@ from loadflow.scene.bearings import FurtherBearing, around, standing_ring
 from loadflow.scene.scene import read_scene
 from loadflow.stages.rolling import KEPT
 from loadflow.stages.rolling_at_work import as_stated
-from loadflow.studies.journal_point import Load, quantities
+from loadflow.studies.journal_point import Load, quantities, written_coefficients
+from loadflow.tribology import lubricant
 
 Rings = Literal["rigid"] | FlexibleRings
 Measures = tuple[float, float, float]
@@ -137,6 +140,48 @@ def rolling_point(
                 about = f"largest displacement of the {ring} ring's raceways"
                 rows[f"{ring}_ring_displacement"] = (largest, "m", about)
     return quantities(rows | _edges(r) | _elements(r) | solver, model=_model(bearing, r, rings))
+
+
+def rolling_coefficients(
+    file: Path,
+    bearing: RollingBearing,
+    force: Load,
+    moment: Load,
+    speeds: tuple[float, float, int],
+    oil: tuple[str, float] | None = None,
+    loss: float = 0.01,
+) -> list[dict[str, float]]:
+    """Write stiffness and damping over speed as a table for rotor dynamics; return its rows.
+
+    Parameters
+    ----------
+    file : Path
+        To write, ``.csv``; see `loadflow.journal.coefficient_table`. x and y are the radial axes of
+        the bearing.
+    force, moment : sequence of float
+        N and N m.
+    speeds : tuple
+        First and last (rad/s), and how many.
+    oil : tuple, optional
+        Lubricant by name and temperature, K, of contacts with films; without it they are dry.
+    loss : float
+        Share of its stiffness that the steel loses.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `loadflow.rolling.coefficients_over_speed`; the folder of the file is not there.
+    loadflow.errors.SolverError
+        No equilibrium.
+    """
+    if not 0 <= loss <= 1:
+        raise InputError(f"--loss {loss:g}: must be within 0 … 1")
+    options = oil and FrictionOptions(oil=lubricant(oil[0]), temperature=oil[1])
+    result: Any = bearing.equilibrium(force, moment)
+    told: dict[str, Any] = {"model": "film", "options": options} if options else {"model": "dry"}
+    return written_coefficients(
+        file, lambda: coefficients_over_speed(result, np.linspace(*speeds), loss=loss, **told)
+    )
 
 
 def _life(r: Any, speed: float | None) -> dict[str, tuple[Any, str, str]]:

@@ -19,7 +19,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.studies.uncarried import SLIGHT, uncarried
+from loadflow.studies.uncarried import SLIGHT, has_collar, uncarried
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
 
@@ -61,7 +61,7 @@ def verdicts(
     if "journal" in tables:
         table = tables["journal"].load()
         for name in table["bearing"].values.tolist():
-            found += _of_journal(scene, name, table.sel(bearing=name), carriers)
+            found += _of_journal(scene, name, table.sel(bearing=name))
     if "thrust" in tables:
         for name in carriers:
             found += _of_pads(scene.thrust.bearings[name], name, tables["thrust"].load())
@@ -73,9 +73,7 @@ def verdicts(
 # --- journal bearings -------------------------------------------------------------------------
 
 
-def _of_journal(
-    scene: Scene, name: str, table: xr.Dataset, carriers: Sequence[str]
-) -> Iterator[Verdict]:
+def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]:
     """Verdicts on one journal bearing: production first, then what holds in every load case."""
     subject, options = f"journal {name}", scene.journal.at(name)
     limits = options.limits
@@ -97,7 +95,7 @@ def _of_journal(
         )  # fmt: skip
     if options.heat is not None:
         yield _warmth(subject, table, limits)
-    if name not in carriers and (thrust := _thrust_on_journal(subject, table)):
+    if not has_collar(scene, name) and (thrust := _thrust_on_journal(subject, table)):
         yield thrust
 
 

@@ -123,6 +123,83 @@ def test_the_film_of_each_place_says_its_own_bounds():
     assert second.attrs["radial_clearance"] == pytest.approx(0.7e-3)
 
 
+TURNS, STEPS = 24, 48  # of a series, and in each of its turns
+BEAM = {"two_point": {"beam": {"sections": [{"outer_diameter": 1.6, "inner_diameter": 1.2}]}}}
+
+
+def turning():
+    """Loads of the hub that turn with the rotor, whole times."""
+    loads = HUB.isel(time=np.zeros(TURNS * STEPS + 1, int))
+    turn = 2 * np.pi * np.arange(TURNS * STEPS + 1) / STEPS
+    time = turn / float(HUB["speed"].mean())
+    swing = np.stack([0 * turn, 1.5e6 * np.sin(turn), 1e6 * np.sin(turn + 0.7)])
+    mean = HUB["hub_moment"].mean("time").transpose("axis").values
+    loads = loads.assign_coords(time=("time", time, HUB["time"].attrs))
+    loads["speed"] = "time", np.full(time.size, float(HUB["speed"].mean())), HUB["speed"].attrs
+    loads["hub_moment"] = ("axis", "time"), mean[:, None] + swing, HUB["hub_moment"].attrs
+    force = HUB["hub_force"].mean("time").transpose("axis").values
+    loads["hub_force"] = ("axis", "time"), np.tile(force[:, None], time.size), {"units": "N"}
+    return loads
+
+
+def films_of(scene, hub):
+    found = {"loads": hub, "shaft": shaft.bearing_loads(scene, None, {"loads": hub})}
+    if scene.journal.in_motion:
+        return journal.orbit(scene, One(), found)["N"].to_dataset()
+    found["reduction"] = reduction.reduced_loads(scene, One(), found)
+    return journal.film(scene, One(), found)["N"].to_dataset()
+
+
+LAW = {"cavitation": {"kind": "gas-mixture", "mixing_constant": 5e4}, "edge_pressure": 5e5}
+
+
+@pytest.mark.parametrize("rung", ["reduced", "grid"])
+def test_a_periodic_load_bends_the_shaft_as_the_series_does_that_it_was_made_of(rung):
+    hub = turning()
+    order = {"method": "periodic", "bounds": [1e-3, 1.0], "orders": [1.0]}  # no base load
+    film = LAW | {"rung": rung, "grid": [36, 24] if rung == "reduced" else [24, 8], "tilt": True}
+    period = films_of(scene_of(shaft=BEAM, journal=film, reduction=order), hub)
+    motion = film | {"motion": "transient"}
+    series = films_of(scene_of(shaft=BEAM, journal=motion, accuracy="given"), hub)
+    last = series.isel(sample=slice(-STEPS - 1, None))
+    size = np.ptp(last["tilt"].values, axis=0).max()
+    assert size > 1e-5
+    when = (last["time"].values - last["time"].values[0])[:, None]
+    assert period.sizes["sample"] == STEPS + 1
+    # the series ends where it began, so that a period of it begins as the closed one does
+    np.testing.assert_allclose(period["time"].values[:, None], when, rtol=2e-3, atol=1e-3)
+    np.testing.assert_allclose(period["tilt"], last["tilt"], atol=0.01 * size)
+    clearance = period.attrs["radial_clearance"]
+    np.testing.assert_allclose(period["eccentricity"], last["eccentricity"], atol=2e-3 * clearance)
+    least = float(period["minimum_film"].min())
+    assert least == pytest.approx(float(last["minimum_film"].min()), rel=5e-3)
+    # aligned the film is thicker and its pressure lower
+    aligned = films_of(scene_of(shaft=BEAM, journal=film | {"tilt": False}, reduction=order), hub)
+    assert float(aligned["minimum_film"].min()) > 1.03 * least
+    assert float(aligned["maximum_pressure"].max()) < float(period["maximum_pressure"].max())
+    assert "tilt" not in aligned
+
+
+def test_the_tilt_over_a_period_goes_with_the_load_and_says_what_it_leaves_out():
+    scene = scene_of(
+        shaft=BEAM, journal={"tilt": True}, reduction={"method": "periodic", "bounds": [0.05, 0.3]}
+    )
+    hub = turning()
+    found = {"loads": hub, "shaft": shaft.bearing_loads(scene, None, {"loads": hub})}
+    samples = reduction.reduced_loads(scene, One(), found)["N"].to_dataset()
+    assert samples.attrs["tilt_left_out"] < 1e-3  # moments alone change: two loads, two tilts
+    for name in ("force", "moment", "tilt", "curvature"):
+        np.testing.assert_allclose(samples[name][0], samples[name][-1], rtol=1e-9, atol=1e-12)
+    mean = found["shaft"]["tilt"].sel(bearing="N").mean("time")
+    # over whole turns; the series has its first sample twice
+    np.testing.assert_allclose(samples["tilt"][:-1].mean("sample"), mean, rtol=0.02)
+    assert np.ptp(samples["tilt"].sel(axis="y").values) > 1e-5
+    hub["hub_force"][2] += 4e5 * np.sin(hub["time"].values)  # not with the moments
+    found = {"loads": hub, "shaft": shaft.bearing_loads(scene, None, {"loads": hub})}
+    other = reduction.reduced_loads(scene, One(), found)["N"].to_dataset()
+    assert 0.05 < other.attrs["tilt_left_out"] < 1.0
+
+
 def test_rolling_bearings_take_both_kinds():
     for method in ("stationary", "periodic"):
         scene = scene_of(reduction={"method": method, "bounds": [0.05, 0.3]}
@@ -137,10 +214,7 @@ def test_design_loads_that_are_chosen_by_hand_ask_for_no_accuracy():
         scene_of(reduction={"method": "stationary"}, accuracy=0.05)
 
 
-def test_what_no_orbit_closes_is_refused_and_keys_without_effect_are_told():
-    line = {"two_point": {"beam": {}}}
-    with pytest.raises(InputError, match="periodic"):
-        scene_of(reduction={"method": "periodic"}, shaft=line, journal={"tilt": True})
+def test_bounds_out_of_order_are_refused_and_keys_without_effect_are_told():
     with pytest.raises(InputError, match="bounds"):
         scene_of(reduction={"method": "periodic", "bounds": [1.0, 0.5]})
     told = unused_keys(scene_of(reduction={"method": "stationary", "size": 0.2, "orders": [1.0]}))

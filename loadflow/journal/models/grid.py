@@ -117,15 +117,15 @@ def _path(
         check_half_speed_whirl(time, force, speed)
     march_limits = limits.tolerance, limits.max_iterations
     marcher = Marcher(discrete, *march_limits, steps.accuracy, statics.shaft)
+    lines = _lines(bearing, line, time.size)
     if steps.periodic:
         way: Method = "marching" if steps.periodic == "marching" else "direct"
         rows, ends, about = close_orbit(
-            marcher, first, time, forces, speed, way, steps.closure, steps.max_periods
+            marcher, first, time, forces, speed, way, steps.closure, steps.max_periods, lines
         )
     else:
         past = marcher.begin(float(time[0]), first)
         begun = orbit_row(discrete, first, 0)  # at the speed and bend of the first time
-        lines = _lines(bearing, line, time.size)
         rows, end, extremes = march(marcher, past, time, forces, speed, lines)
         discrete.set_speed(float(speed[0]))
         extremes.see(begun, first)

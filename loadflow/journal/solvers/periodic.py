@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.all_times import (
     can_close_at_once,
@@ -22,7 +24,6 @@ from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.journal.solvers.transient import Marcher, march, orbit_row
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level
-from loadflow.numerics.fields import require
 from loadflow.tribology.film import effective_speed
 
 Array = NDArray[np.float64]
@@ -34,24 +35,25 @@ _STANDS = 1e-6  # share of the speed below which the effective speed is none
 
 
 def check_period(time: Array, force: Array, speed: Array, line: Line) -> None:
-    """Refuse loads or speeds that do not end as they begin, and a tilt that is not one.
+    """Refuse loads, speeds, tilts and bends that do not end as they begin.
 
     Raises
     ------
     InputError
-        Fewer than four samples, or first and last differ; a tilt or bend that changes.
+        Fewer than four samples, or first and last differ.
     """
     if time.size < 4:
         raise InputError(f"a period of {time.size} samples: give four or more, the last closing it")
-    for name, values in (("force", force), ("speed", speed)):
+    given = {"force": force, "speed": speed, "tilt": line.tilt, "bend": line.bend}
+    for name, values in given.items():
+        if values is None:
+            continue
         gap = np.abs(values[-1] - values[0]).max()
         if gap > 1e-6 * np.abs(values).max():
             raise InputError(
                 f"{name} is {values[0]} at the start of the period and {values[-1]} at its end: "
                 "the last sample must close it"
             )
-    still = all(rows is None or bool(np.all(rows == rows[0])) for rows in (line.tilt, line.bend))
-    require(still, "tilt, bend", "of a closed orbit", "the same all the time")
 
 
 def load_speed(time: Array, force: Array) -> float:
@@ -90,12 +92,14 @@ def close_orbit(
     method: Method,
     closure: float,
     max_periods: int,
+    lines: Array | None = None,
 ) -> tuple[list[dict[str, Any]], tuple[Past, Past], dict[str, float]]:
     """Rows of the closed orbit, the history at both its ends, and its closure and periods.
 
     "marching" goes on from period to period; "direct" solves for the state at the start of the
     period that comes back, by Anderson's acceleration of the same map, and where some periods of
-    that do not close and the film allows it, for all times at once.
+    that do not close and the film allows it, for all times at once. `lines` (n, 4) are tilt and
+    bend of the shaft where they are given.
 
     Raises
     ------
@@ -108,7 +112,7 @@ def close_orbit(
     # both states are within a clearance; every step of the period adds its roundings
     rounding = rounding_level(float(time.size))
     for number in range(1, max_periods + 1):
-        rows, end, extremes = march(marcher, past, time, force, speed)
+        rows, end, extremes = march(marcher, past, time, force, speed, lines)
         following = [replace(p, time=p.time - period) for p in end[-2:]]
         last, residual = residual, _distance(marcher, past[-1], following[-1])
         if is_small(residual, closure, rounding):
@@ -123,7 +127,7 @@ def close_orbit(
         if method == "direct" and len(past) == len(following):
             if residual > 2 * last:
                 accelerate.forget()
-            past = _mixed(marcher, accelerate, past, following)
+            past = _mixed(marcher, accelerate, past, following, _bends(time, lines))
         else:
             past = following
     ratio = math.hypot(*past[-1].position)
@@ -184,8 +188,24 @@ def _distance(marcher: Marcher, one: Past, other: Past) -> float:
     return max(moved, float(np.abs(one.u - other.u).max()) / film.scale)
 
 
+def _bends(time: Array, lines: Array | None) -> Callable[[float], Array] | None:
+    """Bend of the shaft at a time of the period, or of the one before it; None: not given."""
+    if lines is None:
+        return None
+
+    def bend(at: float) -> Array:
+        turn = time[0] + (at - time[0]) % (time[-1] - time[0])
+        return np.array([np.interp(turn, time, column) for column in lines[:, 2:].T])
+
+    return bend
+
+
 def _mixed(
-    marcher: Marcher, accelerate: Anderson, past: list[Past], following: list[Past]
+    marcher: Marcher,
+    accelerate: Anderson,
+    past: list[Past],
+    following: list[Past],
+    bend: Callable[[float], Array] | None,
 ) -> list[Past]:
     """Start of the next period from that of this one and of the `following`."""
     film = marcher.film
@@ -201,7 +221,11 @@ def _mixed(
     if changed or any(film.gap.narrowest(guess[:size]) <= 0 for guess in guesses):
         accelerate.forget()
         return following
-    return [
-        marcher.past(p.time, weight * guess[size:].reshape(p.u.shape), guess[:size], p.pads)
-        for p, guess in zip(following, guesses)
-    ]
+    mixed = []
+    for p, guess in zip(following, guesses):
+        if bend is not None:  # what is in the cells of a film follows its gap
+            cast("ShapedGap", film.gap).bend(bend(p.time))
+        mixed.append(
+            marcher.past(p.time, weight * guess[size:].reshape(p.u.shape), guess[:size], p.pads)
+        )
+    return mixed

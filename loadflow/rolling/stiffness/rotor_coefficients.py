@@ -18,6 +18,7 @@ from loadflow.rolling.friction.contact_films import (
     raceway_radius,
 )
 from loadflow.rolling.friction.options import FrictionOptions
+from loadflow.rolling.geometry import RollingGeometry
 from loadflow.rolling.motion.kinematics import entrainment_speed
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.results import ContactResult
@@ -83,7 +84,8 @@ def rotor_coefficients(
     Raises
     ------
     InputError
-        A frequency is not positive, the model unknown, or options are missing.
+        A frequency is not positive, the model unknown or without films of such a bearing, or
+        options are missing.
 
     Examples
     --------
@@ -102,6 +104,11 @@ def rotor_coefficients(
         raise InputError(f"model: must be film, dry or proportional, got {model!r}")
     if model == "film" and options is None:
         raise InputError("options: the film needs FrictionOptions with oil and temperature")
+    if model == "film" and not has_films(result.bearing):
+        raise InputError(
+            f'model: "dry" or "proportional" of a {type(result.bearing).__name__}, whose films are '
+            "not modelled"
+        )
     static = result.stiffness.reshape(-1, 5, 5)
     matrix = np.zeros((len(static), len(omega), 6, 6), complex)
     if model == "proportional":
@@ -119,6 +126,11 @@ def rotor_coefficients(
             change = np.where(loaded, wet - dry, 0.0)
             matrix[:, i, :5, :5] = static + np.einsum("cj,cja,cjb->cab", change, v, v)
     return _dataset(result, omega, matrix, model)
+
+
+def has_films(bearing: RollingGeometry) -> bool:
+    """Whether the films of a bearing are modelled: all its elements roll on one pitch circle."""
+    return isinstance(bearing, BallRaceways | RollerRaceways)
 
 
 def _tangents(result: Result) -> Array:
