@@ -28,6 +28,7 @@ from loadflow.journal.models.composed_model import (
     build,
     contact_share,
     levels_of,
+    unknowns_on,
     warn_unresolved,
 )
 from loadflow.journal.models.composed_pads import (
@@ -41,7 +42,6 @@ from loadflow.journal.models.composed_pads import (
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
-from loadflow.journal.models.width_modes import between_points
 from loadflow.journal.solvers.transient import OrbitStopped, stopped
 from loadflow.numerics.convergence import Limits
 
@@ -179,12 +179,7 @@ class March:
         """Unknowns (nx, L) at the points of another level."""
         if level == other:
             return unknowns
-        here, there = self.drive.film(level), self.drive.film(other)
-        few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
-        moved = there.cold()
-        across = between_points(few, many, there.whole)
-        moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
-        return moved
+        return unknowns_on(unknowns, self.drive.film(level), self.drive.film(other))
 
     def least(self, state: State) -> float:
         """Narrowest gap that a state leaves in a rigid shell, clearances."""
