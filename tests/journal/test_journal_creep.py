@@ -8,7 +8,7 @@ import pytest
 from loadflow.journal import Contact, Film, GasMixture, JournalBearing, LocalShell, Lubricant
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models import composed_rest, reduced
+from loadflow.journal.models import composed_rest, grid, reduced
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import build
 from loadflow.journal.models.slow_heat import COLD, standing_states
@@ -50,6 +50,30 @@ def test_a_stop_is_answered_sample_by_sample(alone):
     assert (np.diff(states.minimum_film[:9]) < 0.0).all()
 
 
+@pytest.mark.parametrize("line", [{}, TILTED], ids=["aligned", "tilted"])
+@pytest.mark.parametrize("first", [1e-3, 0.0])
+def test_a_series_begins_at_standstill_and_creeping_without_the_grid(first, line, monkeypatch):
+    monkeypatch.setattr(grid, "equilibrium", lambda *given: pytest.fail("asked"))
+    time = np.linspace(0.0, 4.0, 81)
+    force = np.stack([3e6 + 2e5 * np.sin(time), np.full(time.size, 6e5)], axis=-1)
+    tilt = {name: np.tile(value, (time.size, 1)) for name, value in line.items()}
+    path = BEARING.orbit(time, force, first + 1e-3 * time, FILM, **tilt)
+    state = BEARING.equilibrium(force[0], first, replace(FILM, grading="uniform"), **line)
+    assert path.eccentricity_ratio[0] == pytest.approx(float(state.eccentricity_ratio), rel=1e-3)
+
+
+@pytest.mark.parametrize("line", [{}, TILTED], ids=["aligned", "tilted"])
+def test_a_series_that_stops_turns_back_and_rests_is_followed(line, monkeypatch):
+    monkeypatch.setattr(grid, "equilibrium", lambda *given: pytest.fail("asked"))
+    time = np.linspace(0.0, 40.0, 801)
+    force = np.stack([3e6 + 5e5 * np.sin(time), 6e5 * np.cos(1.1 * time)], axis=-1)
+    speed = np.interp(time, [0.0, 15.0, 20.0, 25.0], [0.3, 0.0, -0.05, 0.0])
+    tilt = {name: np.tile(value, (time.size, 1)) for name, value in line.items()}
+    path = BEARING.orbit(time, force, speed, FILM, **tilt)
+    assert np.isfinite(path.minimum_film).all()
+    assert path.minimum_film[-1] < 0.2 * path.minimum_film[0]
+
+
 @pytest.mark.parametrize("speed", [0.01, 3e-3])
 def test_a_creeping_film_is_that_of_the_grid_on_fine_cells(speed):
     """On 60 cells both are off, the largest pressure by up to a third."""
@@ -64,13 +88,13 @@ def test_a_creeping_film_is_that_of_the_grid_on_fine_cells(speed):
 @pytest.mark.parametrize("compliance", [1e-12, 1e-11])
 def test_a_standing_shaft_in_a_soft_shell_has_the_contact_of_the_grid(compliance):
     """Beside fine surfaces a soft shell gives way by many times their roughness."""
-    fine = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=2e-7, factor=3e-3))
-    film = replace(FILM, contact=fine, shell=LocalShell(compliance))
+    even = replace(ROUGH, asperities=replace(ROUGH.asperities, roughness=2e-7, factor=3e-3))
+    film = replace(FILM, contact=even, shell=LocalShell(compliance))
     few = BEARING.equilibrium((1.5e6, 7e5), 0.0, film)
-    grid = BEARING.equilibrium((1.5e6, 7e5), 0.0, replace(film, rung="grid", grid=(480, 10)))
+    fine = BEARING.equilibrium((1.5e6, 7e5), 0.0, replace(film, rung="grid", grid=(480, 10)))
     for name, bound in (("eccentricity_ratio", 2e-4), ("contact_pressure", 5e-3),
                         ("minimum_film", 5e-3)):  # fmt: skip
-        assert getattr(few, name) == pytest.approx(getattr(grid, name), rel=bound), name
+        assert getattr(few, name) == pytest.approx(getattr(fine, name), rel=bound), name
 
 
 def test_steps_of_every_way_count(alone, monkeypatch):

@@ -18,6 +18,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     levels_at_rest,
+    levels_of,
     unknowns_on,
     warn_unresolved,
 )
@@ -42,7 +43,7 @@ def equilibrium(
     """Fields of `Equilibrium`, which loads have an answer, and which surely have none.
 
     In a shell that gives way a film too thin for the cells around, or not found on them, is one on
-    more of them, where the mesh may be graded.
+    more of them, where the mesh may be graded and more may be spent.
 
     Warns
     -----
@@ -50,7 +51,8 @@ def equilibrium(
         A pressure that changes more across the width than the polynomials do; names the load.
     """
     around, across = options.cells
-    finer_ones = options.shell is not None and options.may_grade and around < _MOST_AROUND
+    may = control.refine and options.may_grade
+    finer_ones = options.shell is not None and may and around < _MOST_AROUND
     films = _on_cells(bearing, options, force, speed, line, control, finer_ones)
     answer, found, left, none = films.answer, films.found, films.left, films.none
     if finer_ones:
@@ -78,7 +80,8 @@ def _on_cells(
     """Films on the cells around that are asked for, on as many points across as each asks for."""
     films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
     before, place_in = films, np.arange(speed.size)  # of the loads in the films before
-    for level in levels_at_rest(bearing, options)[1:]:
+    levels = levels_at_rest(bearing, options) if control.refine else levels_of(options)
+    for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:
             break

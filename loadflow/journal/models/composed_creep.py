@@ -8,7 +8,7 @@ one that is wanted in steps as long as Newton's method follows.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Protocol
 
 import numpy as np
@@ -60,6 +60,16 @@ class Creep:
         self.model, self.load, self.place_at = model, load, place_at
         self.rest, self.most = rest, most
         self.spent = self.last = 0
+
+    def places(self, speed: float) -> Iterator[Array]:
+        """Places (4,) at a `speed`, rad/s, that the ways there have come to; fill the unknowns."""
+        found = self.from_faster(speed) if speed != 0.0 else None
+        if found is not None:
+            yield found
+        if self.model.film.rough.size > 0.0 and self.load.any():
+            found = self.from_standing(speed)
+            if found is not None:
+                yield found
 
     def from_faster(self, speed: float) -> Array | None:
         """Place (4,) at a `speed`, rad/s, from faster films on; fills the unknowns."""

@@ -174,12 +174,13 @@ class _Loads:
         if begun is not None:
             work.u[:] = begun[0]
             yield Start(begun[1].copy())
-        if last is not None and self._near(n, last, rows[last]):
-            work.u[:] = work.last
-            tilt = (rows[last, :4] if model.size == 4 else places[n])[2:]
-            yield Start(np.append(rows[last, :2], tilt))
+        near = last is not None and self._near(n, last, rows[last])
+        if last is not None and near:
+            yield self._after(n, last, rows)
         work.u[:] = model.cold()
         yield Start(places[n].copy(), first=True)
+        if last is not None and model.film.give > 0.0 and not near:
+            yield self._after(n, last, rows)
         spent = (yield from self._creeping(n)) if model.film.give > 0.0 else 0
         for share in OFF_THE_BORE:
             work.u[:] = model.cold()
@@ -188,6 +189,12 @@ class _Loads:
             row = self.solve(place, n, size=0)
             yield Start(place, spent=spent + int(row[at.ITERATIONS]))
             spent = 0
+
+    def _after(self, n: int, last: int, rows: Array) -> Start:
+        """Start of load `n` where the `last` one ended; sets the unknowns."""
+        self.model.work.u[:] = self.model.work.last
+        tilt = (rows[last, :4] if self.model.size == 4 else self.places[n])[2:]
+        return Start(np.append(rows[last, :2], tilt))
 
     def _near(self, n: int, last: int, row: Array) -> bool:
         """Whether the place of load `n` is near that of the `last` one, which has a `row`."""
@@ -211,11 +218,8 @@ class _Loads:
             return self.solve(place, n, size, speed=speed, most=most)
 
         creep = Creep(self.model, self.force[n], place_at, rest, self.control.max_iterations)
-        rough, told = self.model.film.rough.size > 0.0 and bool(self.force[n].any()), 0
-        ways = ((creep.from_faster, speed != 0.0), (creep.from_standing, rough))
-        for way in (way for way, is_open in ways if is_open):
-            place = way(speed)
-            if place is not None:
-                yield Start(place, spent=creep.spent - told)
-                told = creep.spent
+        told = 0
+        for place in creep.places(speed):
+            yield Start(place, spent=creep.spent - told)
+            told = creep.spent
         return creep.spent - told
