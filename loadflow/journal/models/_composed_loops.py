@@ -218,6 +218,9 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         for a in range(size):
             missing += (load[a] - work.load[a] - work.touch[0, a]) ** 2
         residual = max(residual, np.sqrt(missing) / force_scale)
+        # the largest of the residuals leaves out what is no number; the load does not
+        if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
+            residual = np.inf
         if film.give > 0.0 and not has_gap(film, work):
             residual = np.inf
         done = residual < tolerance or spent == max_iterations or not residual < np.inf

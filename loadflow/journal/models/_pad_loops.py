@@ -250,6 +250,9 @@ def _newton(
         for a in range(size):
             missing += (load[a] - work.load[a]) ** 2
         residual = max(residual, np.sqrt(missing) / force_scale)
+        # the largest of the residuals leaves out what is no number; the load does not
+        if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
+            residual = np.inf
         done = residual < tolerance or spent == max_iterations or not residual < np.inf
         rounding = 0.0
         if not residual < tolerance and (done or spent >= LATE):

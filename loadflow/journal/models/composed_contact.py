@@ -27,7 +27,7 @@ _PER_SIZE = 0.05  # distance of the eccentricities of the table of contact, over
 _AROUND = np.radians(1.5)  # of a cell for each place, of Gauss, at which asperities are asked
 _LEAST_AROUND = 3  # such places in a cell
 _TOUCHES = 8.5  # film parameter above which asperities on a shell carry nothing, to rounding
-_LONGEST = 20000  # entries of a table of these
+_LONGEST = 10000  # entries of a table of these, 500 times the roughness
 
 
 def depth_at(bearing: JournalGeometry, z: Array) -> Array:
@@ -116,8 +116,9 @@ def _yielding_gap(contact: Contact, clearance: float, give: float) -> tuple[floa
     value, slope = pairs[:, 0], pairs[:, 1] / size
     share = 1.0 / (1.0 - lifted * slope)
     gap = planes - lifted * value
-    step = max(_PER_SIZE * size, (summits + _TOUCHES * size - gap[0]) / _LONGEST)
-    wanted = np.arange(gap[0], summits + _TOUCHES * size, step)
+    step, last = _PER_SIZE * size, summits + _TOUCHES * size
+    # farther down the shell gives way as straight as the table goes on
+    wanted = np.arange(max(gap[0], last - _LONGEST * step), last, step)
     opens = CubicHermiteSpline(gap, planes, share)(wanted)
     at = np.array([pressure_integral(h) for h in ((opens - summits) / size).tolist()])
     rise = at[:, 1] / size

@@ -37,7 +37,7 @@ from loadflow.journal.models.composed_supply import (
     supplied,
 )
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
-from loadflow.journal.models.width_modes import half_width_nodes, whole_width
+from loadflow.journal.models.width_modes import between_points, half_width_nodes, whole_width
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import SHARES
@@ -52,6 +52,8 @@ _ON_A_CROWN = 3  # points that either end of a relief asks for: two leave its si
 _WIDENED = 0.01  # of the largest depth
 _BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
 _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft must leave
+_SHORTER = 1.0 / 3.0  # of the gap of a rigid bore that asks for the same cells
+_THINNER = 2.0  # times a gap in a rigid bore, that one in a shell may be
 _UNRESOLVED = 0.08  # highest polynomials over the largest pressure: beyond, there are too few
 
 
@@ -165,6 +167,20 @@ class ComposedFilm:
             return True
         narrow = self.least(position[None], self.work.bend[None])[0]
         return self.units.resolves(np.array([1.0 - narrow, 0.0]))
+
+    def resolves_gap(self, gap: float) -> bool:
+        """Whether the cells around resolve a film in a shell that gives way, by its narrowest gap.
+
+        There the film is pressed flat, and ends over a shorter length: on cells that would do in a
+        rigid bore its thickness is up to 3 % off, on these 1 %.
+        """
+        return self.units.resolves(np.array([1.0 - _SHORTER * gap, 0.0]))
+
+    def surely_thin(self, place: Array, force: Array) -> bool:
+        """Whether they surely do not, by a first position (4,) and what the shell gives there."""
+        specific = float(np.hypot(*force)) / (self.bearing.width * self.bearing.diameter)
+        gap = 1.0 - float(np.hypot(*place[:2])) + self.film.give * specific
+        return not self.resolves_gap(_THINNER * gap)
 
     def touches(self, position: Array) -> bool:
         """Whether a rigid bore and a smooth shaft of given line touch at a position (4,)."""
@@ -305,6 +321,22 @@ def _resolves_relief(bearing: JournalGeometry, points: Array) -> bool:
 def levels_of(options: Film) -> range:
     """Levels of points across that a film may ask for; beside grooves there is one."""
     return LEVELS if options.supply is None else LEVELS[:1]
+
+
+def levels_at_rest(bearing: JournalGeometry, options: Film) -> range:
+    """The same of a film at rest: in a shell one more, as a film pressed flat ends steeply."""
+    levels = levels_of(options)
+    more = options.shell is not None and options.supply is None and not bearing.relief
+    return range(levels.stop + 1) if more else levels
+
+
+def unknowns_on(unknowns: Array, here: ComposedFilm, there: ComposedFilm) -> Array:
+    """Unknowns (nx, L) of the film `here` at the points of another level."""
+    few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
+    moved = there.cold()
+    across = between_points(few, many, there.whole)
+    moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
+    return moved
 
 
 def warn_unresolved(left: NDArray[np.bool_], first: str) -> None:

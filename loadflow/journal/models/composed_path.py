@@ -23,11 +23,13 @@ from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._pad_kernels import LAST
 from loadflow.journal.models._pad_loops import solve_on_pads
+from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     build,
     contact_share,
     levels_of,
+    unknowns_on,
     warn_unresolved,
 )
 from loadflow.journal.models.composed_pads import (
@@ -41,7 +43,6 @@ from loadflow.journal.models.composed_pads import (
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
-from loadflow.journal.models.width_modes import between_points
 from loadflow.journal.solvers.transient import OrbitStopped, stopped
 from loadflow.numerics.convergence import Limits
 
@@ -149,6 +150,8 @@ class March:
         if self.start is not None:
             place[:2] = self.start
         found = self.solve(level, place, size, 0, 1, most)
+        if not found and self.start is None and model.film.give > 0.0:
+            found = self._creeps(level, place, most)
         if not found and self.start is None:
             place[:] = begin()
             work.u[:] = model.cold()
@@ -157,6 +160,31 @@ class March:
         bend = self.lines[0, 2:]
         past = np.concatenate([bend, bend, [0.0]])
         return State(level, work.u.copy(), work.u.copy(), place, place, past) if found else None
+
+    def _creeps(self, level: int, place: Array, most: int) -> bool:
+        """Whether the first film is found from faster or standing ones; moves `place`."""
+        model, drive = self.drive.film(level), self.drive
+        first = self.loads[:1], self.lines[:1]
+
+        def place_at(speed: float) -> Array:
+            return model.estimates(drive.force[:1], np.array([speed]), self.lines[:1])[0]
+
+        def rest(place: Array, speed: float, most: int, size: int | None = None) -> Array:
+            row = np.zeros((1, model.columns))
+            solve(
+                model.film, model.work, place, model.size if size is None else size, 0,
+                drive.time[:1], *first, np.array([speed]), drive.control.tolerance, most, row,
+                _NO_SLOPES, self.warmth, self.states[:1],
+            )  # fmt: skip
+            return row[0]
+
+        creep = Creep(model, drive.force[0], place_at, rest, most)
+        for found in creep.places(float(drive.speed[0])):
+            place[:] = found
+            if self.solve(level, place, model.size, 0, 1, most):
+                self.rows[0, at.ITERATIONS] += creep.spent
+                return True
+        return False
 
     def goes_on(self, state: State, level: int, begin: int, end: int) -> State | None:
         """The film after the samples `begin` … `end`; None where it is not found."""
@@ -179,12 +207,7 @@ class March:
         """Unknowns (nx, L) at the points of another level."""
         if level == other:
             return unknowns
-        here, there = self.drive.film(level), self.drive.film(other)
-        few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
-        moved = there.cold()
-        across = between_points(few, many, there.whole)
-        moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
-        return moved
+        return unknowns_on(unknowns, self.drive.film(level), self.drive.film(other))
 
     def least(self, state: State) -> float:
         """Narrowest gap that a state leaves in a rigid shell, clearances."""

@@ -184,5 +184,7 @@ def solve_on_grid(
         )
     except SolverError as error:
         raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
+    spent = answer["iterations"][index]  # before it came here
     for name, values in answer.items():
         values[index] = state[name]
+    answer["iterations"][index] += spent

@@ -1,0 +1,159 @@
+"""Reduced films of standing and creeping shafts in a shell that gives way.
+
+A creeping film is as thick all over the place where it is pressed, and ends there within a few
+cells: no closed form is near it, and Newton's method does not find it at once. A faster film is
+found at once, and a standing shaft rests on its asperities alone; from either the speed goes to the
+one that is wanted in steps as long as Newton's method follows.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models.composed_model import ComposedFilm
+
+Array = NDArray[np.float64]
+
+_FASTER = 3.0  # speeds over one another at which a film is sought; first step of the speed, too
+_THICK = 0.5  # eccentricity ratio of the closed form, below which no faster film is tried
+_SLOWEST = 1e-4  # of a speed, at which the first film after standstill is sought at last
+_EASY = 10  # Newton steps below which the next step of the speed is longer
+_LONGER, _SHORTER = 1.5, 0.5  # powers of it that are tried next
+_STEPS = 25  # Newton steps of each
+_LEAST = 1.01  # ratio of two speeds below which a step is given up
+_BUDGET = 10  # Newton steps of a way, in multiples of those of a solution
+_OVERLAP = 1e-3  # first overlap of a standing shaft, clearances; the next ones are twice as large
+_DEEPEST = 20  # of these
+_PRESSED = 0.02  # of its load, to which a standing shaft is pressed by its place alone
+_HALVES = 30  # places that are tried for it
+
+
+class Solve(Protocol):
+    """A film at rest: from the unknowns of the work arrays and `place` (4,), which it moves."""
+
+    def __call__(self, place: Array, speed: float, most: int, size: int | None = None) -> Array:
+        """Row of results after at most `most` Newton steps; of the place, `size` moves."""
+
+
+class Creep:
+    """One load on a film, in whose work arrays it is solved.
+
+    Attributes
+    ----------
+    spent, last : int
+        Newton steps so far, and of the last solution.
+    """
+
+    def __init__(
+        self,
+        model: ComposedFilm,
+        load: Array,
+        place_at: Callable[[float], Array],
+        rest: Solve,
+        most: int,
+    ) -> None:
+        self.model, self.load, self.place_at = model, load, place_at
+        self.rest, self.most = rest, most
+        self.spent = self.last = 0
+
+    def places(self, speed: float) -> Iterator[Array]:
+        """Places (4,) at a `speed`, rad/s, that the ways there have come to; fill the unknowns."""
+        found = self.from_faster(speed) if speed != 0.0 else None
+        if found is not None:
+            yield found
+        if self.model.film.rough.size > 0.0 and self.load.any():
+            found = self.from_standing(speed)
+            if found is not None:
+                yield found
+
+    def from_faster(self, speed: float) -> Array | None:
+        """Place (4,) at a `speed`, rad/s, from faster films on; fills the unknowns."""
+        fast = speed
+        while True:
+            fast *= _FASTER
+            place = self.place_at(fast)
+            if float(np.hypot(*place[:2])) < _THICK:
+                return None
+            self.model.work.u[:] = self.model.cold()
+            if self._solved(place, fast, self.most):
+                return self._go(place, fast, speed)
+
+    def from_standing(self, speed: float) -> Array | None:
+        """The same from the shaft that stands on its asperities."""
+        place = self.standing()
+        if place is None or not self._solved(place, 0.0, self.most):
+            return None
+        if speed == 0.0:
+            return place
+        unknowns, held, slow = self.model.work.u.copy(), place.copy(), speed
+        while abs(slow) > _SLOWEST * abs(speed):
+            if self._solved(place, slow, _STEPS):
+                return self._go(place, slow, speed)
+            self.model.work.u[:], place[:] = unknowns, held
+            slow /= _FASTER
+        return None
+
+    def standing(self) -> Array | None:
+        """Place (4,) where asperities about carry the load along it; fills the unknowns.
+
+        The shell gives way under them: the shaft lies farther out than in a rigid bore.
+        """
+        size = float(np.hypot(*self.load))
+        place, way = self.place_at(0.0), self.load / size
+        self.model.work.u[:] = self.model.cold()
+
+        def carried(ratio: float) -> float:
+            place[:2] = ratio * way
+            row = self.rest(place, 0.0, 1, size=0)
+            self.spent += int(row[at.ITERATIONS])
+            held = float(row[[at.CONTACT_X, at.CONTACT_Y]] @ way)
+            return held / size if row[at.CONVERGED] > 0.0 else np.inf
+
+        low = high = float(np.hypot(*place[:2]))
+        step = _OVERLAP
+        for _ in range(_DEEPEST):
+            if carried(low) < 1.0:
+                break
+            low, step = low - step, 2.0 * step
+        step = _OVERLAP
+        for _ in range(_DEEPEST):
+            share = carried(high)
+            if share >= 1.0:
+                break
+            low, high, step = high, high + step, 2.0 * step
+        for _ in range(_HALVES):
+            middle = 0.5 * (low + high)
+            share = carried(middle)
+            if abs(share - 1.0) < _PRESSED:
+                return place
+            low, high = (middle, high) if share < 1.0 else (low, middle)
+        return None
+
+    def _solved(self, place: Array, speed: float, most: int) -> bool:
+        """Whether the film is found from the unknowns and `place`, which it moves."""
+        row = self.rest(place, speed, most)
+        self.last = int(row[at.ITERATIONS])
+        self.spent += self.last
+        return bool(row[at.CONVERGED] > 0.0)
+
+    def _go(self, place: Array, begin: float, end: float) -> Array | None:
+        """Place at the speed `end` from that at `begin`, whose film the unknowns are."""
+        work, given = self.model.work, self.spent
+        unknowns, held, speed, step = work.u.copy(), place.copy(), begin, _FASTER
+        while speed != end:
+            if self.spent - given > _BUDGET * self.most or step < _LEAST:
+                return None
+            left = abs(np.log(end / speed))
+            nearer = end if left <= np.log(step) else speed * step ** np.sign(np.log(end / speed))
+            if self._solved(place, nearer, _STEPS):
+                unknowns, held, speed = work.u.copy(), place.copy(), nearer
+                step = step**_LONGER if self.last < _EASY else step
+            else:
+                work.u[:], place[:] = unknowns, held
+                step = step**_SHORTER
+        return place

@@ -1,0 +1,225 @@
+"""Reduced films with effects at rest, load by load, on the points of one level."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Generator, Iterator
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models.composed_creep import Creep
+from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share
+from loadflow.journal.models.slow_heat import COLD, standing_states
+from loadflow.journal.rows import operating_columns
+from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+_AT_REST = np.zeros(1)  # one time
+_NO_SLOPES = np.zeros((2, 0, 0))
+_MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
+
+
+class Start(NamedTuple):
+    """Where Newton's method starts: a place (4,), whether it is the first, steps that led to it."""
+
+    place: Array
+    first: bool = False
+    spent: int = 0
+
+
+@dataclass(frozen=True)
+class RestingFilms:
+    """Films at rest under loads, and which loads have one.
+
+    Attributes
+    ----------
+    answer : dict
+        Fields of `Equilibrium`, (n, …).
+    found : array of bool (n,)
+        Loads that have an answer.
+    left : array of bool (n,)
+        Loads whose pressure asks for more points across.
+    none : array of bool (n,)
+        Loads that surely have no film.
+    thin : array of bool (n,)
+        Loads whose film in an elastic shell asks for more cells around.
+    model : ComposedFilm
+        The film that they were solved on.
+    films : dict
+        Of loads that are left: unknowns (nx, L) and place (4,).
+    """
+
+    answer: dict[str, Any]
+    found: NDArray[np.bool_]
+    left: NDArray[np.bool_]
+    none: NDArray[np.bool_]
+    thin: NDArray[np.bool_]
+    model: ComposedFilm
+    films: dict[int, tuple[Array, Array]] = field(default_factory=dict)
+
+
+def films_at_rest(
+    bearing: JournalGeometry,
+    options: Film,
+    force: Array,
+    speed: Array,
+    line: Line,
+    control: Limits,
+    level: int,
+    begun: Callable[[ComposedFilm, int], tuple[Array, Array] | None] = lambda model, n: None,
+    may_leave: bool = False,
+) -> RestingFilms:
+    """Films on the points of a `level`; `begun` tells where that of a load may begin.
+
+    Loads that surely ask for more cells around are not solved if these `may_leave`.
+    """
+    model = build(bearing, options, speed, line, level)
+    work, count = model.work, speed.size
+    rows = np.zeros((count, model.columns))
+    both = 4 if model.whole else 2
+    stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
+    none, thin, slopes = np.zeros(count, bool), np.zeros(count, bool), np.zeros((2, both, both))
+    loads = _Loads(model, force, speed, model.lines(count), control)
+    films: dict[int, tuple[Array, Array]] = {}
+    last: int | None = None
+    for n in range(count):
+        spent, converged, residual, rounding = 0, False, np.inf, 0.0
+        work.liquid[:] = 0.0
+        if speed[n] == 0.0 and options.contact is None and loads.loads[n].any():
+            rows[n, at.RESIDUAL] = np.inf
+            continue  # no film without rotation and squeeze
+        if may_leave and model.surely_thin(loads.places[n], force[n]):
+            thin[n], rows[n, at.RESIDUAL] = True, np.inf
+            continue
+        for start in loads.starts(n, last, rows, begun(model, n)):
+            row = loads.solve(start.place, n, slopes=slopes)
+            residual, iterations, answered, rounding = row[at.RESIDUAL : at.RESULTS]
+            spent += start.spent + int(iterations)
+            converged = answered > 0.0 and (not options.may_grade or model.resolves(start.place))
+            none[n] = start.first and _MISSED < residual < 1.0 and model.touches(start.place)
+            if converged:
+                rows[n], stiffness[n], damping[n] = row, *slopes
+                work.last[:] = work.u
+                last = n
+                thin[n] = model.film.give > 0.0 and not model.resolves_gap(row[at.LEAST])
+                if model.unresolved_across(row[None])[0]:
+                    films[n] = work.u.copy(), start.place.copy()
+            if answered or none[n]:
+                break
+        rows[n, at.RESIDUAL : at.RESULTS] = residual, spent, converged, rounding
+    lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]
+    scale = np.outer(lengths, lengths) / bearing.clearance
+    answer = {
+        **operating_columns(bearing, force, speed, options.liquid, rows[:, [at.X, at.Y]]),
+        "moment": np.zeros((count, 2)),
+        "tilt": np.zeros((count, 2)),
+        "pad_tilt": np.zeros((count, 0)),
+        **model.results(rows, speed),
+        "stiffness": stiffness * scale,
+        "damping": damping * scale,
+    }
+    if options.contact is not None:
+        answer["contact_share"] = contact_share(answer["contact_force"], force)
+    found, left = rows[:, at.CONVERGED] > 0, model.unresolved_across(rows)
+    return RestingFilms(answer, found, left, none, thin, model, films)
+
+
+class _Loads:
+    """Loads on one film at rest, and where the film of each may start."""
+
+    def __init__(
+        self, model: ComposedFilm, force: Array, speed: Array, lines: Array, control: Limits
+    ) -> None:
+        self.model, self.force, self.speed, self.lines = model, force, speed, lines
+        self.control, self.loads = control, model.loads(force)
+        self.places = model.estimates(force, speed, lines)
+
+    def solve(
+        self,
+        place: Array,
+        n: int,
+        size: int | None = None,
+        slopes: Array = _NO_SLOPES,
+        speed: float | None = None,
+        most: int | None = None,
+    ) -> Array:
+        """Row of load `n`; `place` moves in `size` coordinates to where it is carried."""
+        model, this, row = self.model, slice(n, n + 1), np.zeros((1, self.model.columns))
+        solve(
+            model.film, model.work, place, model.size if size is None else size, 0, _AT_REST,
+            self.loads[this], self.lines[this],
+            self.speed[this] if speed is None else np.array([speed]), self.control.tolerance,
+            most or self.control.max_iterations, row, slopes, COLD, standing_states(1),
+        )  # fmt: skip
+        return row[0]
+
+    def starts(
+        self, n: int, last: int | None, rows: Array, begun: tuple[Array, Array] | None
+    ) -> Iterator[Start]:
+        """Where load `n` may start, after load `last`; sets the unknowns of each.
+
+        The last ones are off the bore with their film solved: near the bore, and without a film,
+        the first steps of a shaft lead far away.
+        """
+        model, work, places = self.model, self.model.work, self.places
+        if begun is not None:
+            work.u[:] = begun[0]
+            yield Start(begun[1].copy())
+        near = last is not None and self._near(n, last, rows[last])
+        if last is not None and near:
+            yield self._after(n, last, rows)
+        work.u[:] = model.cold()
+        yield Start(places[n].copy(), first=True)
+        if last is not None and model.film.give > 0.0 and not near:
+            yield self._after(n, last, rows)
+        spent = (yield from self._creeping(n)) if model.film.give > 0.0 else 0
+        for share in OFF_THE_BORE:
+            work.u[:] = model.cold()
+            place = places[n].copy()
+            place[:2] *= share
+            row = self.solve(place, n, size=0)
+            yield Start(place, spent=spent + int(row[at.ITERATIONS]))
+            spent = 0
+
+    def _after(self, n: int, last: int, rows: Array) -> Start:
+        """Start of load `n` where the `last` one ended; sets the unknowns."""
+        self.model.work.u[:] = self.model.work.last
+        tilt = (rows[last, :4] if self.model.size == 4 else self.places[n])[2:]
+        return Start(np.append(rows[last, :2], tilt))
+
+    def _near(self, n: int, last: int, row: Array) -> bool:
+        """Whether the place of load `n` is near that of the `last` one, which has a `row`."""
+        model, places = self.model, self.places
+        moved, turned = np.hypot(*(places[n] - places[last]).reshape(2, 2).T)
+        gap = max(1.0 - np.hypot(*row[:2]), model.film.rough.size)
+        given = 0.0 if model.size == 4 else turned * model.film.nodes.z.max()
+        return bool(moved + given < NEAR * gap)
+
+    def _creeping(self, n: int) -> Generator[Start, None, int]:
+        """Where a standing or creeping shaft in a shell may start; sets the unknowns of each.
+
+        Returns the steps of ways that led nowhere.
+        """
+        this, speed = slice(n, n + 1), float(self.speed[n])
+
+        def place_at(speed: float) -> Array:
+            return self.model.estimates(self.force[this], np.array([speed]), self.lines[this])[0]
+
+        def rest(place: Array, speed: float, most: int, size: int | None = None) -> Array:
+            return self.solve(place, n, size, speed=speed, most=most)
+
+        creep = Creep(self.model, self.force[n], place_at, rest, self.control.max_iterations)
+        told = 0
+        for place in creep.places(speed):
+            yield Start(place, spent=creep.spent - told)
+            told = creep.spent
+        return creep.spent - told
