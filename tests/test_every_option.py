@@ -47,6 +47,11 @@ CALLS = {
     },
     "thrust": {"taper": [*COLLAR, "--taper=1e-4"], "step": [*COLLAR, "--step=1e-4"]},
     "cone": {"rings": CONES, "segments": [*CONES, "--pads=6", "--taper=8e-5"]},
+    "friction-rig": {
+        "rollers": ["--speed-rpm=1000"],
+        "journal": ["--speed-rpm=1000", "--arrangement=journal"],
+        "straight": ["--speed-rpm=1000", "--arrangement=straight"],
+    },
     "seeds": {
         "printed": ["HUB"],
         "page": ["TWO", "-o", "OUT/seeds.html", "--variable=hub_force.y"],
@@ -117,6 +122,12 @@ VALUES = {
         "clearance": ["2.2e-4"], "distance": ["3"], "arrangement": ["X"], "pads": ["5"],
         "pad_angle_deg": ["50"], "taper": ["1e-4"], "wedge": ["0.6"], "viscosity": ["0.25"],
         "edge_pressure": ["2e5"], "grid": ["20", "8"], "scene": ["SCENE"], "bearing": ["N"],
+    },
+    "friction-rig": {
+        "speed_rpm": ["1500"], "arrangement": ["straight"], "stage": ["film"],
+        "oil": ["iso-vg-220"], "temperature_c": ["80"], "load": ["3e3"],
+        "pin": ["50e-3", "18e-3", "1e-3"], "seal_force": ["5"], "thrust_share": ["0.04"],
+        "measured": ["RIG"],
     },
     "seeds": {
         "variable": ["hub_moment.y"], "alpha": ["0.99"], "method": ["as-printed"],
@@ -197,7 +208,9 @@ def words(tmp_path_factory):
     table = folder / "dlc1.1_v8_s1.csv"
     rows = [f"{0.1 * k:g}, 9, 350, 0, -1070, 2000, 500, 300" for k in range(20)]
     table.write_text("\n".join([HEAD, *rows]), encoding="utf-8")
-    return {"HUB": hub, "ONE": one, "TWO": two, "FORCES": forces, "FORCE": force,
+    rig = folder / "rig.csv"
+    rig.write_text("rpm,force,velocity\n1000,4,2\n1000,-4,-2\n", encoding="utf-8")
+    return {"HUB": hub, "RIG": rig, "ONE": one, "TWO": two, "FORCES": forces, "FORCE": force,
             "TABLE": table, "SCENE": folder / "scene.toml", "LIST": folder / "list.csv",
             "SERIES": folder / "none.txt"}  # fmt: skip
 

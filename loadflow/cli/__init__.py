@@ -15,6 +15,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
     lifetimes,
     points,
     processing,
+    rigs,
     scenes,
     thrust_points,
     viewing,
@@ -36,7 +37,7 @@ GROUPS = {
         "view",
     ),
     "Load cubes": ("convert", "loads", "statistics", "seeds", "reduce", "lifetime"),
-    "One bearing, one wind": ("journal", "thrust", "cone", "rolling", "wind"),
+    "One bearing, one wind": ("journal", "thrust", "cone", "rolling", "friction-rig", "wind"),
     "How far to trust it": ("validate", "bench"),
 }
 """Commands in the order of the help."""
@@ -76,6 +77,7 @@ EXAMPLE = {
     "--force-z 8e5 --moment-y 4e6 --speed-rpm 12",
     "rolling": "loadflow rolling --balls 60 --ball-diameter 0.06 --pitch-diameter 2.4 "
     "--groove-radius 0.0315 --force-z 1e6 --moment-y 1e6",
+    "friction-rig": "loadflow friction-rig --speed-rpm 1000 --speed-rpm 2000 --arrangement journal",
     "wind": "loadflow wind 12",
     "validate": "loadflow validate journal --failed",
     "bench": "loadflow bench journal",

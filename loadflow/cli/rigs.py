@@ -1,0 +1,87 @@
+"""The command that answers for a friction rig."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import typer
+
+from loadflow.cli.base import AsJson, app, print_json, print_rows
+from loadflow.cli.stated import refuse
+from loadflow.quantities import CELSIUS, percent
+
+Arrangement = Literal["rollers", "journal", "straight"]
+
+
+@app.command("friction-rig")
+def friction_rig(
+    speed_rpm: Annotated[
+        list[float] | None,
+        typer.Option(help="Of the shaft, 1/min; may be repeated. Default: those of --measured."),
+    ] = None,
+    arrangement: Annotated[
+        Arrangement,
+        typer.Option(
+            help="A crank with rollers or a journal bearing on its pin; a straight shaft."
+        ),
+    ] = "rollers",
+    stage: Annotated[
+        Literal["coulomb", "film"],
+        typer.Option(help="Rollers by friction coefficients, or by their films."),
+    ] = "coulomb",
+    oil: Annotated[str, typer.Option(help="A lubricant by name.")] = "crankshaft-5w-30",
+    temperature_c: Annotated[float, typer.Option(help="Of the oil, °C.")] = 90.0,
+    load: Annotated[float, typer.Option(help="Radial, on a straight shaft, N.")] = 2e3,
+    pin: Annotated[
+        tuple[float, float, float],
+        typer.Option(help="Journal bearing: diameter, width (m), relative clearance."),
+    ] = (48e-3, 18e-3, 1e-3),
+    seal_force: Annotated[float, typer.Option(help="Of the lip seal, N; 0: none.")] = 11.5,
+    thrust_share: Annotated[
+        float, typer.Option(help="Force on the rod's washers over that of the pin; 0: none.")
+    ] = 0.0,
+    measured: Annotated[
+        Path | None,
+        typer.Option(
+            help="Series of the rig, .csv: rpm, force (N, of the piston along its travel), and "
+            "velocity (m/s, of the piston) or angle (°, of the crank), over whole turns."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Friction torque of a crank rig over speed, part by part, beside what was measured."""
+    from loadflow.journal import JournalBearing
+    from loadflow.studies.crank_rig import CrankRig
+    from loadflow.studies.rig_point import rig_torques
+
+    if arrangement != "straight":
+        refuse("a crank is loaded by its masses", "load")
+    else:
+        refuse("a straight shaft has no pin", "thrust_share")
+    if arrangement != "journal":
+        refuse("--pin is of --arrangement journal", "pin")
+    else:
+        refuse("a journal bearing has no washers", "thrust_share")
+    told: dict[str, Any] = {
+        "temperature": temperature_c + CELSIUS,
+        "oil": oil,
+        "seal_force": seal_force,
+    }
+    if arrangement == "straight":
+        rig = CrankRig(drive=None, load=load, **told)
+    elif arrangement == "journal":
+        rig = CrankRig(pin_film=JournalBearing(*pin), **told)
+    else:
+        rig = CrankRig(thrust_share=thrust_share, **told)
+    rows = rig_torques(rig, tuple(speed_rpm or ()), stage, measured)
+    if as_json:
+        print_json({"units": {"rpm": "1/min", "off": "1", "others": "N m"}, "rows": rows})
+        return
+    names = {"rpm": "1/min", "torque": "torque, N m", "measured": "measured, N m"}
+    heads = [names.get(name, name) for name in rows[0]]
+    print_rows(tuple(heads), [[_cell(*one) for one in row.items()] for row in rows])
+
+
+def _cell(name: str, value: float) -> str:
+    return percent(value, signed=True) if name == "off" else f"{value:.4g}"
