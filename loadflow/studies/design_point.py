@@ -127,7 +127,8 @@ def judge_design(
     spectrum : xarray.DataTree
         Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
     shaft : BentShaft, optional
-        The shaft that bends in them: as wide as they are, its tilt is a condition.
+        The shaft that bends in them, as wide as they are: films follow it, or its tilt is a
+        condition.
 
     Returns
     -------
@@ -138,10 +139,10 @@ def judge_design(
     try:
         if candidate.journal is not None:
             for place in candidate.journal.bearings:
-                samples, bends = spectrum[place].to_dataset(), False
+                samples, around = spectrum[place].to_dataset(), None
                 if shaft is not None and place in shaft.concept.bearings:
-                    samples, bends = shaft.lying(candidate, place, samples), True
-                _add_film(sums, candidate.journal.at(place), place, samples, bends)
+                    samples, around = shaft.lying(candidate, place, samples), shaft
+                _add_film(sums, candidate.journal.at(place), place, samples, around)
         if candidate.rolling is not None:
             _add_rolling(sums, candidate.rolling.bearings, friction, spectrum)
             if shaft is not None:
@@ -182,8 +183,14 @@ def fast_journal(options: Journal) -> Journal:
     return still.model_copy(update={"rung": "grid", "grid": (around, across)})
 
 
-def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset, bends: bool) -> None:
-    """Add what a journal bearing loses, and how far its limits are; whether its shaft `bends`."""
+def _add_film(
+    sums: _Sums, options: Journal, place: str, samples: xr.Dataset, shaft: BentShaft | None
+) -> None:
+    """Add what a journal bearing loses, and how far its limits are; around a `shaft` that bends.
+
+    Films follow such a shaft only where it does not close the aligned ones at an end: the others
+    do not hold in any case, and what is left of them takes long to find.
+    """
     fast = fast_journal(options)
     force = samples["force"].transpose("sample", "axis").values
     speed, weight = samples["speed"].values, samples["weight"].values
@@ -196,8 +203,16 @@ def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset, be
     film = _Films(fast, samples)
     asked = np.flatnonzero(~touching)
     answer = film.at(asked)
-    film_of = np.zeros(speed.size)
-    film_of[asked] = np.where(answer.converged, answer.minimum_film, 0.0)
+    film_of = _thickness(answer, asked, speed.size)
+    judged = np.flatnonzero(running)
+    if shaft is not None and judged.size and not options.tilt:
+        closing = 2 * film_of[judged] / options.geometry.width
+        share = float((closing / np.maximum(_tilt(samples)[judged], 1e-300)).min())
+        sums.conditions[f"tilt of the shaft in {place}"] = share
+        if shaft.in_films and share >= 1:
+            film = _Films(fast_journal(options.model_copy(update={"tilt": True})), samples)
+            answer = film.at(asked)
+            film_of = _thickness(answer, asked, speed.size)
     own = weight[asked] * answer.converged
     total = weight.sum() / max(own.sum(), 1e-300)  # those without a film lose as the others do
     sums.power += total * _mean(answer.friction_power + answer.supply_power, own)
@@ -205,23 +220,17 @@ def _add_film(sums: _Sums, options: Journal, place: str, samples: xr.Dataset, be
     sums.turning = max(sums.turning, float(weight.sum()))
 
     limits = options.limits
-    judged = np.flatnonzero(running)
     if judged.size:
         thin = int(judged[np.argmin(film_of[judged])])
-        sums.margins[f"smallest film in {place}"] = _crossing(
-            film.grown(thin).minimum_film, options.least_film, falls=True
+        sums.margins[f"smallest film in {place}"] = film.crossing(
+            thin, "minimum_film", options.least_film, falls=True
         )
         sums.extreme("minimum_film", float(film_of[thin]))
-        if bends and not options.tilt:  # a tilted film has its ends in the smallest film
-            closing = 2 * film_of[judged] / options.geometry.width
-            tilt = _tilt(samples)[judged]
-            share = float((closing / np.maximum(tilt, 1e-300)).min())
-            sums.conditions[f"tilt of the shaft in {place}"] = share
     pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
     hardest = int(asked[np.argmax(pressure)])
     allowed = _allowed_pressure(options, answer, int(np.argmax(pressure)))
-    sums.margins[f"largest film pressure in {place}"] = _crossing(
-        film.grown(hardest).maximum_pressure, allowed, falls=False
+    sums.margins[f"largest film pressure in {place}"] = film.crossing(
+        hardest, "maximum_pressure", allowed, falls=False
     )
     sums.extreme("film_pressure", float(pressure.max()))
     _film_conditions(sums, options, place, samples, answer, asked)
@@ -235,7 +244,7 @@ class _Films:
 
     def __init__(self, options: Journal, samples: xr.Dataset) -> None:
         self.options, self.samples = options, samples
-        self._grown: dict[int, Any] = {}
+        self._grown: dict[tuple[int, int], Any] = {}
 
     def at(self, index: np.ndarray, factor: np.ndarray | float = 1.0) -> Any:
         """Equilibria of some samples with factors on their loads."""
@@ -246,31 +255,45 @@ class _Films:
             self.options, force, some["speed"].values, **shaft_line(self.options, some)
         )
 
-    def grown(self, sample: int) -> Any:
-        """Equilibria of one sample with all `FACTORS` on its load."""
-        if sample not in self._grown:
-            self._grown[sample] = self.at(np.full(FACTORS.size, sample), FACTORS)
-        return self._grown[sample]
+    def grown(self, sample: int, k: int) -> Any:
+        """Equilibrium of one sample with the factor `k` of `FACTORS` on its load."""
+        if (sample, k) not in self._grown:
+            self._grown[sample, k] = self.at(np.array([sample]), FACTORS[k])
+        return self._grown[sample, k]
+
+    def crossing(self, sample: int, name: str, limit: float, falls: bool) -> float:
+        """Factor on the load of a sample at which a value reaches its limit.
+
+        Halved among `FACTORS`, as more load brings the limit nearer, and between two of them in
+        straight lines.
+        """
+
+        def distance(k: int) -> float:
+            value = float(getattr(self.grown(sample, k), name)[0])
+            told = math.log(max(value, 1e-300) / limit)
+            return (told if falls else -told) if math.isfinite(told) else -math.inf
+
+        good, bad, k = -1, FACTORS.size, FACTORS.size // 2
+        while bad - good > 1:
+            good, bad = (k, bad) if distance(k) >= 0 else (good, k)
+            k = (good + bad) // 2
+        if bad == FACTORS.size or good < 0:
+            return float(FACTORS[max(good, 0)])
+        low, high = distance(good), distance(bad)
+        if not math.isfinite(high):
+            return float(FACTORS[good])
+        return float(FACTORS[good] * (FACTORS[bad] / FACTORS[good]) ** (low / (low - high)))
 
 
 def _mean(values: np.ndarray, weight: np.ndarray) -> float:
     return float((np.where(weight > 0, values, 0.0) * weight).sum())
 
 
-def _crossing(values: np.ndarray, limit: float, falls: bool) -> float:
-    """Factor of `FACTORS` at which a value reaches its limit, between them in straight lines."""
-    distance = np.log(np.maximum(values, 1e-300) / limit)
-    distance = np.where(np.isfinite(distance), distance if falls else -distance, -np.inf)
-    bad = np.flatnonzero(distance < 0)
-    if bad.size == 0:
-        return float(FACTORS[-1])
-    k = int(bad[0])
-    if k == 0:
-        return float(FACTORS[0])
-    if not np.isfinite(distance[k]):
-        return float(FACTORS[k - 1])
-    share = distance[k - 1] / (distance[k - 1] - distance[k])
-    return float(FACTORS[k - 1] * (FACTORS[k] / FACTORS[k - 1]) ** share)
+def _thickness(answer: Any, asked: np.ndarray, count: int) -> np.ndarray:
+    """Smallest film of each sample, 0 where there is none, m."""
+    film = np.zeros(count)
+    film[asked] = np.where(answer.converged, answer.minimum_film, 0.0)
+    return film
 
 
 def _tilt(samples: xr.Dataset) -> np.ndarray:

@@ -98,12 +98,16 @@ class BentShaft:
         Tilt of the shaft's axis against the horizontal, rad.
     follows : bool
         Whether it is as wide as the bearings, as its sections are not stated.
+    in_films : bool
+        Whether films are solved around the shaft as it lies, as runs of a scene with an accuracy
+        do; else those of bearings that do not say so are aligned, and its tilt is a condition.
     """
 
     name: str
     concept: Concept
     gravity: float
     follows: bool
+    in_films: bool
 
     @classmethod
     def of(cls, scene: Scene, places: tuple[str, ...]) -> BentShaft | None:
@@ -115,7 +119,8 @@ class BentShaft:
             if own and concept.beam is not None and len(concept.bearings) > 1:
                 fitting = hollow_shaft(narrowest(scene.journal)).sections
                 gravity = load_turbine(scene.turbine.name).rotor.tilt
-                return cls(name, concept, gravity, concept.beam.sections == fitting)
+                follows = concept.beam.sections == fitting
+                return cls(name, concept, gravity, follows, scene.asks)
         return None
 
     def fitting(self, candidate: Candidate) -> Concept:

@@ -97,6 +97,27 @@ def test_a_slender_shaft_closes_the_film_at_an_end_and_the_design_does_not_hold(
             assert point.condition < min(1.0, aligned.condition)
 
 
+def test_films_follow_the_shaft_where_models_are_chosen_by_an_accuracy():
+    scene = scene_with(STATED_SECTIONS)
+    spectrum, stated = spectrum_of(scene), BentShaft.of(scene, PLACES)
+    asked = BentShaft.of(scene.model_copy(update={"accuracy": 0.05}), PLACES)
+    assert (stated.in_films, asked.in_films) == (False, True)
+
+    def judged(diameter, bent):
+        measures = {"diameter": diameter, "width": 1.4, "relative_clearance": 1.1e-3}
+        one = with_geometry(scene.candidates["wide"], **measures)
+        return judge_design(one, scene.friction, spectrum, bent)
+
+    losses = []
+    for diameter in (2.0, 1.6):
+        aligned, bent = judged(diameter, stated), judged(diameter, asked)
+        losses.append(bent.numbers["minimum_film"] / aligned.numbers["minimum_film"])
+        assert bent.load_factor < aligned.load_factor
+    assert losses[1] < 0.9 < losses[0] < 1  # the narrow shaft bends more
+    # where it closes the aligned film at an end, the tilt says how far off the design is
+    assert judged(0.8, asked) == judged(0.8, stated)
+
+
 def test_rollers_bear_no_more_tilt_than_they_allow_and_barrels_align_themselves():
     scene = scene_with(STATED_SECTIONS)
     bent, spectrum = BentShaft.of(scene, PLACES), spectrum_of(scene)
