@@ -111,7 +111,7 @@ class Design(Section, BaseModel):
     population: Annotated[int, Field(ge=6, le=256)] = 20
     cells: Annotated[int, Field(ge=3, le=41)] = 13
     classes: Annotated[int, Field(ge=2, le=20)] = 5
-    checks: Annotated[int, Field(ge=1, le=8)] = 3
+    checks: Annotated[int, Field(ge=1, le=8)] = 5
     seed: Annotated[int, Field(ge=0)] = 0
     crown: Crowning | None = None
 

@@ -242,7 +242,7 @@ def test_a_load_that_fails_is_solved_on_the_grid():
     few = BEARING.equilibrium([(2e6, 0.0), (0.0, 0.0)], OMEGA, rung="reduced", **options)
     grid = BEARING.equilibrium((2e6, 0.0), OMEGA, **COARSE)
     assert few.eccentricity_ratio[0] == grid.eccentricity_ratio
-    assert few.iterations[0] == grid.iterations
+    assert few.iterations[0] > grid.iterations  # those of the way tried first count, too
     assert np.all(few.converged)
 
 
