@@ -170,7 +170,8 @@ STANDING = 0.01 * np.pi / 30
 
 SWING = 0.2
 """Angle, rad, within which a shaft that stands may swing: a brake holds it by an elastic
-drivetrain, and slips in gusts (0.14 rad in 36 s after a fault at 24 m/s)."""
+drivetrain, and slips in gusts (0.14 rad in 36 s after a fault at 24 m/s). So short an arc, beside
+the loaded one of some π, draws no film in: the surfaces rest on each other."""
 
 
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
