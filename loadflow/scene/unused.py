@@ -159,15 +159,20 @@ def friction_note(scene: Scene) -> tuple[str, ...]:
     """A sentence on parts of the friction of rolling bearings that are wanted but not given."""
     if "rolling.friction" not in scene.results:
         return ()
-    options = scene.friction
-    absent = {"churning": options.churning == Churning(), "seals": options.seal_torque == 0}
-    left_out = [part for part, is_absent in absent.items() if is_absent]
+    left_out = uncounted_friction(scene)
     if not left_out:
         return ()
     return (
         f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
         "form is trustworthy; friction.churning and friction.seal_torque take measured ones",
     )
+
+
+def uncounted_friction(scene: Scene) -> list[str]:
+    """Parts of the friction of rolling bearings that are not given."""
+    options = scene.friction
+    absent = {"churning": options.churning == Churning(), "seals": options.seal_torque == 0}
+    return [part for part, is_absent in absent.items() if is_absent]
 
 
 # --- loads ------------------------------------------------------------------------------------

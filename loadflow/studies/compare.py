@@ -17,6 +17,7 @@ from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.scene.unused import uncounted_friction
 from loadflow.studies.compare_factor import Margin
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import (
@@ -284,9 +285,9 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         for name, torque in losses.torques.items():
             own = torque.sel(case=table["case"].values).sum("bearing").values
             yield name, _mean(run, own, share, groups, "N m")
-    yield from _lost(
-        run, table, None if losses is None else losses.power, "without slip of rollers"
-    )
+    *some, last = "slip of rollers", *uncounted_friction(run.scene)
+    left_out = f"{', '.join(some)} and {last}" if some else last
+    yield from _lost(run, table, None if losses is None else losses.power, f"without {left_out}")
 
 
 def _years(damage: np.ndarray, share: np.ndarray, slope: float, some: np.ndarray) -> float:
