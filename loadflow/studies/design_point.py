@@ -20,18 +20,17 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
-from loadflow.stages.film_of_bearing import equilibria, shaft_line, surely_touching
+from loadflow.stages.film_of_bearing import surely_touching
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
+from loadflow.studies.grown_films import FACTORS, GrownFilms
 from loadflow.studies.shaft_through import BentShaft
 
 COARSE = (48, 12)
 """Cells at most of a film that is solved on the grid."""
 
-FACTORS = np.geomspace(1 / 8, 8, 25)
-"""Factors on the loads among which that is sought with which a film reaches its limit."""
 
 _CONDITION = "smallest ratio of what else is allowed to what is found, 1 at the limit"
 _UNITS = {
@@ -200,7 +199,7 @@ def _add_film(
         sums.margins[f"smallest film in {place}"] = float(FACTORS[0])
         sums.extreme("minimum_film", 0.0)
         return
-    film = _Films(fast, samples)
+    film = GrownFilms(fast, samples)
     asked = np.flatnonzero(~touching)
     answer = film.at(asked)
     film_of = _thickness(answer, asked, speed.size)
@@ -210,7 +209,7 @@ def _add_film(
         share = float((closing / np.maximum(_tilt(samples)[judged], 1e-300)).min())
         sums.conditions[f"tilt of the shaft in {place}"] = share
         if shaft.in_films and share >= 1:
-            film = _Films(fast_journal(options.model_copy(update={"tilt": True})), samples)
+            film = GrownFilms(fast_journal(options.model_copy(update={"tilt": True})), samples)
             answer = film.at(asked)
             film_of = _thickness(answer, asked, speed.size)
     own = weight[asked] * answer.converged
@@ -237,52 +236,6 @@ def _add_film(
     if options.heat is not None:
         warm = float(np.nanmax(answer.temperature))
         sums.conditions[f"temperature of the film in {place}"] = limits.oil_temperature / warm
-
-
-class _Films:
-    """Films of a bearing under the samples of a spectrum."""
-
-    def __init__(self, options: Journal, samples: xr.Dataset) -> None:
-        self.options, self.samples = options, samples
-        self._grown: dict[tuple[int, int], Any] = {}
-
-    def at(self, index: np.ndarray, factor: np.ndarray | float = 1.0) -> Any:
-        """Equilibria of some samples with factors on their loads."""
-        some = self.samples.isel(sample=index)
-        force = some["force"].transpose("sample", "axis").values
-        force = force * np.reshape(factor, (-1, 1)) if np.ndim(factor) else force * factor
-        return equilibria(
-            self.options, force, some["speed"].values, **shaft_line(self.options, some)
-        )
-
-    def grown(self, sample: int, k: int) -> Any:
-        """Equilibrium of one sample with the factor `k` of `FACTORS` on its load."""
-        if (sample, k) not in self._grown:
-            self._grown[sample, k] = self.at(np.array([sample]), FACTORS[k])
-        return self._grown[sample, k]
-
-    def crossing(self, sample: int, name: str, limit: float, falls: bool) -> float:
-        """Factor on the load of a sample at which a value reaches its limit.
-
-        Halved among `FACTORS`, as more load brings the limit nearer, and between two of them in
-        straight lines.
-        """
-
-        def distance(k: int) -> float:
-            value = float(getattr(self.grown(sample, k), name)[0])
-            told = math.log(max(value, 1e-300) / limit)
-            return (told if falls else -told) if math.isfinite(told) else -math.inf
-
-        good, bad, k = -1, FACTORS.size, FACTORS.size // 2
-        while bad - good > 1:
-            good, bad = (k, bad) if distance(k) >= 0 else (good, k)
-            k = (good + bad) // 2
-        if bad == FACTORS.size or good < 0:
-            return float(FACTORS[max(good, 0)])
-        low, high = distance(good), distance(bad)
-        if not math.isfinite(high):
-            return float(FACTORS[good])
-        return float(FACTORS[good] * (FACTORS[bad] / FACTORS[good]) ** (low / (low - high)))
 
 
 def _mean(values: np.ndarray, weight: np.ndarray) -> float:
