@@ -89,6 +89,17 @@ def fitting_unit(units: str, largest: float) -> tuple[float, str]:
 _LEAST = 0.1
 
 
+def scale_of(units: str) -> tuple[float, str]:
+    """Zero and unit of the scale on which a value is read, not a difference of two.
+
+    Examples
+    --------
+    >>> scale_of("K"), scale_of("N")
+    ((273.15, '°C'), (0.0, 'N'))
+    """
+    return (CELSIUS, "°C") if units == "K" else (0.0, units)
+
+
 def load_cases(count: int) -> str:
     """Return a number of load cases in words.
 

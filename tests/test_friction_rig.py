@@ -72,7 +72,7 @@ def test_series_that_measure_no_friction_are_refused(tmp_path, angle, column, se
         ("speed, velocity\n1, 2", "no column rpm, force"),
         ("rpm, force, velocity\n1000, 1, 1\n1000, x, -1", "line 2 of the series, force"),
         ("rpm, force, velocity\n-5, 1, 1\n-5, -1, -1", "rpm must be > 0"),
-        ("rpm, force, velocity\n", "line 1 of the series, rpm: not a number"),
+        ("rpm, force, velocity\n", "no samples below the heads"),
         ("", "No columns"),
     ],
 )

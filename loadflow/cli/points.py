@@ -348,7 +348,7 @@ def rolling(
             "the table has no safety and no life",
             "hardness", "life_hardness_factor", "cleanliness",
         )  # fmt: skip
-        warm = None if oil is None else (oil, temperature_c + 273.15)
+        warm = None if oil is None else (oil, temperature_c + CELSIUS)
         table = rolling_coefficients(
             coefficients, found[0], force, moment, _speeds(speed_rpm, over_rpm), warm, loss
         )

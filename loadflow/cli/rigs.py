@@ -55,24 +55,23 @@ def friction_rig(
     from loadflow.studies.crank_rig import CrankRig
     from loadflow.studies.rig_point import rig_torques
 
-    if arrangement != "straight":
-        refuse("a crank is loaded by its masses", "load")
-    else:
-        refuse("a straight shaft has no pin", "thrust_share")
-    if arrangement != "journal":
-        refuse("--pin is of --arrangement journal", "pin")
-    else:
-        refuse("a journal bearing has no washers", "thrust_share")
     told: dict[str, Any] = {
         "temperature": temperature_c + CELSIUS,
         "oil": oil,
         "seal_force": seal_force,
     }
     if arrangement == "straight":
+        refuse("a straight shaft has no pin", "pin", "thrust_share")
         rig = CrankRig(drive=None, load=load, **told)
     elif arrangement == "journal":
+        refuse(
+            "a crank is loaded by its masses, and a journal bearing has no washers",
+            "load",
+            "thrust_share",
+        )
         rig = CrankRig(pin_film=JournalBearing(*pin), **told)
     else:
+        refuse("a crank is loaded by its masses, and has rollers on its pin", "load", "pin")
         rig = CrankRig(thrust_share=thrust_share, **told)
     rows = rig_torques(rig, tuple(speed_rpm or ()), stage, measured)
     if as_json:

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
-from loadflow.quantities import CELSIUS, fitting_unit
+from loadflow.quantities import fitting_unit, scale_of
 
 STYLE: Any = {
     "figure.constrained_layout.use": True,
@@ -47,7 +47,8 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     """
     values = np.asarray(data.values, dtype=float)
     if data.attrs.get("units") == "K" and str(data.name).endswith("temperature"):  # no difference
-        return values - CELSIUS, "°C"
+        zero, unit = scale_of("K")
+        return values - zero, unit
     known = np.abs(values[np.isfinite(values)])
     factor, unit = fitting_unit(data.attrs.get("units", "–"), float(known.max(initial=0.0)))
     if units == "µm":

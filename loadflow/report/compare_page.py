@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from loadflow.quantities import CELSIUS, HOURS_PER_YEAR, percent
+from loadflow.quantities import HOURS_PER_YEAR, percent, scale_of
 from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
@@ -134,7 +134,7 @@ UNITS = {
 
 def _verdict(verdict: Mapping[str, Any]) -> dict[str, str]:
     factor, unit = UNITS.get(verdict["unit"], (1.0, verdict["unit"]))
-    zero, unit = (CELSIUS, "°C") if unit == "K" else (0.0, unit)
+    zero, unit = scale_of(unit)
     value, limit = (
         "–" if verdict[key] is None else f"{short(factor * (verdict[key] - zero))} {unit}".strip()
         for key in ("value", "limit")

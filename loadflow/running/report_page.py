@@ -18,7 +18,7 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import CELSIUS, fitting_unit, percent
+from loadflow.quantities import fitting_unit, percent, scale_of
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
@@ -250,7 +250,7 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     film = verdict.unit == "m" and size < _FILMS
     factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
     unit = "" if unit == "–" else unit
-    zero, scale = (CELSIUS, "°C") if unit == "K" else (0.0, unit)
+    zero, scale = scale_of(unit)
     if np.isfinite(verdict.limit):
         sign = "≤" if verdict.sense == "at most" else "≥"
         limit = f"{sign} {factor * (verdict.limit - zero):.4g} {scale}".rstrip()

@@ -141,9 +141,11 @@ def _read(file: Path) -> pd.DataFrame:
         )
     wanted = [name for name in ("rpm", "force", "velocity", "angle") if name in table]
     numbers = table[wanted].apply(pd.to_numeric, errors="coerce")
+    if not len(numbers):
+        raise InputError(f"{file}: no samples below the heads")
     bad = ~np.isfinite(numbers.to_numpy(float))
-    if bad.any() or not len(numbers):
-        line, column = np.argwhere(bad)[0] if bad.any() else (0, 0)
+    if bad.any():
+        line, column = np.argwhere(bad)[0]
         raise InputError(f"{file}: line {line + 1} of the series, {wanted[column]}: not a number")
     return numbers
 

@@ -7,8 +7,8 @@ import pytest
 
 from loadflow.journal import Contact, Film, GasMixture, JournalBearing, LocalShell, Lubricant
 from loadflow.journal.line import Line
+from loadflow.journal.models import composed_creep, composed_rest, grid, reduced
 from loadflow.journal.models import composed_film as at
-from loadflow.journal.models import composed_rest, grid, reduced
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import build
 from loadflow.journal.models.slow_heat import COLD, standing_states
@@ -105,7 +105,8 @@ def test_steps_of_every_way_count(alone, monkeypatch):
         spent.append(int(given[11][0, at.ITERATIONS]))
         return solved
 
-    monkeypatch.setattr(composed_rest, "solve", counted)
+    for module in (composed_rest, composed_creep):
+        monkeypatch.setattr(module, "solve", counted)
     for load, speed in ((1e6, 1e-3), (3e6, 1e-4), (2e6, 0.0)):
         spent.clear()
         state = BEARING.equilibrium((load, 0.2 * load), speed, FILM)

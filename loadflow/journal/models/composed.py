@@ -16,13 +16,11 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.composed_model import (
-    ComposedFilm,
     levels_at_rest,
     levels_of,
-    unknowns_on,
     warn_unresolved,
 )
-from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
+from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -79,23 +77,21 @@ def _on_cells(
 ) -> RestingFilms:
     """Films on the cells around that are asked for, on as many points across as each asks for."""
     films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
-    before, place_in = films, np.arange(speed.size)  # of the loads in the films before
+    known = Known(films.films, films.model)
     levels = levels_at_rest(bearing, options) if control.refine else levels_of(options)
     for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:
             break
-
-        def begun(model: ComposedFilm, n: int) -> tuple[Array, Array] | None:
-            known = before.films.get(int(place_in[again[n]]))  # noqa: B023  used within this turn
-            return known and (unknowns_on(known[0], before.model, model), known[1])  # noqa: B023
-
+        begun = Known(
+            {k: known.films[n] for k, n in enumerate(again.tolist()) if n in known.films},
+            known.model,
+        )
         given = bearing, options, force[again], speed[again], line.at(again), control, level
         more = films_at_rest(*given, begun)
         _take(films.answer, again, more)
         films.left[again] = more.left | ~more.found
-        before, place_in = more, np.full(speed.size, -1)
-        place_in[again] = np.arange(again.size)
+        known = Known({int(again[k]): film for k, film in more.films.items()}, more.model)
     return films
 
 

@@ -8,14 +8,16 @@ one that is wanted in steps as long as Newton's method follows.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from typing import Protocol
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import ComposedFilm
+from loadflow.journal.models.slow_heat import Warmth
+from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -33,15 +35,25 @@ _PRESSED = 0.02  # of its load, to which a standing shaft is pressed by its plac
 _HALVES = 30  # places that are tried for it
 
 
-class Solve(Protocol):
-    """A film at rest: from the unknowns of the work arrays and `place` (4,), which it moves."""
-
-    def __call__(self, place: Array, speed: float, most: int, size: int | None = None) -> Array:
-        """Row of results after at most `most` Newton steps; of the place, `size` moves."""
+_AT_REST = np.zeros(1)  # one time
+_NO_SLOPES = np.zeros((2, 0, 0))
 
 
 class Creep:
     """One load on a film, in whose work arrays it is solved.
+
+    Parameters
+    ----------
+    model : ComposedFilm
+        The film.
+    force, line : ndarray (1, 2), (1, 4)
+        Load, N, and how the shaft lies.
+    control : Limits
+        Tolerance, and the Newton steps of a solution.
+    warmth : Warmth
+        Slow heat of the film.
+    states : ndarray (1, …)
+        Where it begins.
 
     Attributes
     ----------
@@ -52,13 +64,15 @@ class Creep:
     def __init__(
         self,
         model: ComposedFilm,
-        load: Array,
-        place_at: Callable[[float], Array],
-        rest: Solve,
-        most: int,
+        force: Array,
+        line: Array,
+        control: Limits,
+        warmth: Warmth,
+        states: Array,
     ) -> None:
-        self.model, self.load, self.place_at = model, load, place_at
-        self.rest, self.most = rest, most
+        self.model, self.force, self.line, self.warmth = model, force, line, warmth
+        self.load, self.loads, self.states = force[0], model.loads(force), states
+        self.tolerance, self.most = control.tolerance, control.max_iterations
         self.spent = self.last = 0
 
     def places(self, speed: float) -> Iterator[Array]:
@@ -76,7 +90,7 @@ class Creep:
         fast = speed
         while True:
             fast *= _FASTER
-            place = self.place_at(fast)
+            place = self._estimate(fast)
             if float(np.hypot(*place[:2])) < _THICK:
                 return None
             self.model.work.u[:] = self.model.cold()
@@ -104,13 +118,12 @@ class Creep:
         The shell gives way under them: the shaft lies farther out than in a rigid bore.
         """
         size = float(np.hypot(*self.load))
-        place, way = self.place_at(0.0), self.load / size
+        place, way = self._estimate(0.0), self.load / size
         self.model.work.u[:] = self.model.cold()
 
         def carried(ratio: float) -> float:
             place[:2] = ratio * way
-            row = self.rest(place, 0.0, 1, size=0)
-            self.spent += int(row[at.ITERATIONS])
+            row = self._row(place, 0.0, 1, size=0)
             held = float(row[[at.CONTACT_X, at.CONTACT_Y]] @ way)
             return held / size if row[at.CONVERGED] > 0.0 else np.inf
 
@@ -136,10 +149,23 @@ class Creep:
 
     def _solved(self, place: Array, speed: float, most: int) -> bool:
         """Whether the film is found from the unknowns and `place`, which it moves."""
-        row = self.rest(place, speed, most)
+        row = self._row(place, speed, most, self.model.size)
         self.last = int(row[at.ITERATIONS])
-        self.spent += self.last
         return bool(row[at.CONVERGED] > 0.0)
+
+    def _estimate(self, speed: float) -> Array:
+        """Place (4,) by closed forms."""
+        return self.model.estimates(self.force, np.array([speed]), self.line)[0]
+
+    def _row(self, place: Array, speed: float, most: int, size: int) -> Array:
+        """Results after at most `most` Newton steps; of the `place`, `size` moves."""
+        row = np.zeros((1, self.model.columns))
+        solve(
+            self.model.film, self.model.work, place, size, 0, _AT_REST, self.loads, self.line,
+            np.array([speed]), self.tolerance, most, row, _NO_SLOPES, self.warmth, self.states,
+        )  # fmt: skip
+        self.spent += int(row[0, at.ITERATIONS])
+        return row[0]
 
     def _go(self, place: Array, begin: float, end: float) -> Array | None:
         """Place at the speed `end` from that at `begin`, whose film the unknowns are."""
@@ -148,8 +174,8 @@ class Creep:
         while speed != end:
             if self.spent - given > _BUDGET * self.most or step < _LEAST:
                 return None
-            left = abs(np.log(end / speed))
-            nearer = end if left <= np.log(step) else speed * step ** np.sign(np.log(end / speed))
+            way = np.log(end / speed)
+            nearer = end if abs(way) <= np.log(step) else speed * step ** np.sign(way)
             if self._solved(place, nearer, _STEPS):
                 unknowns, held, speed = work.u.copy(), place.copy(), nearer
                 step = step**_LONGER if self.last < _EASY else step

@@ -164,21 +164,9 @@ class March:
     def _creeps(self, level: int, place: Array, most: int) -> bool:
         """Whether the first film is found from faster or standing ones; moves `place`."""
         model, drive = self.drive.film(level), self.drive
-        first = self.loads[:1], self.lines[:1]
-
-        def place_at(speed: float) -> Array:
-            return model.estimates(drive.force[:1], np.array([speed]), self.lines[:1])[0]
-
-        def rest(place: Array, speed: float, most: int, size: int | None = None) -> Array:
-            row = np.zeros((1, model.columns))
-            solve(
-                model.film, model.work, place, model.size if size is None else size, 0,
-                drive.time[:1], *first, np.array([speed]), drive.control.tolerance, most, row,
-                _NO_SLOPES, self.warmth, self.states[:1],
-            )  # fmt: skip
-            return row[0]
-
-        creep = Creep(model, drive.force[0], place_at, rest, most)
+        limits = replace(drive.control, max_iterations=most)
+        one = drive.force[:1], self.lines[:1]
+        creep = Creep(model, *one, limits, self.warmth, self.states[:1])
         for found in creep.places(float(drive.speed[0])):
             place[:] = found
             if self.solve(level, place, model.size, 0, 1, most):

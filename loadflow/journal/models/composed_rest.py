@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Generator, Iterator
+from collections.abc import Generator, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -15,7 +15,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
-from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share
+from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
@@ -34,6 +34,20 @@ class Start(NamedTuple):
     place: Array
     first: bool = False
     spent: int = 0
+
+
+class Known(NamedTuple):
+    """Films of some loads: unknowns (nx, L) and place (4,) of each, on the points of a model."""
+
+    films: dict[int, tuple[Array, Array]]
+    model: ComposedFilm
+
+    def on(self, model: ComposedFilm, n: int) -> tuple[Array, Array] | None:
+        """Film of load `n` on the points of another model."""
+        if n not in self.films:
+            return None
+        unknowns, place = self.films[n]
+        return unknowns_on(unknowns, self.model, model), place
 
 
 @dataclass(frozen=True)
@@ -75,10 +89,10 @@ def films_at_rest(
     line: Line,
     control: Limits,
     level: int,
-    begun: Callable[[ComposedFilm, int], tuple[Array, Array] | None] = lambda model, n: None,
+    begun: Known | None = None,
     may_leave: bool = False,
 ) -> RestingFilms:
-    """Films on the points of a `level`; `begun` tells where that of a load may begin.
+    """Films on the points of a `level`; those of loads that are `begun` begin there.
 
     Loads that surely ask for more cells around are not solved if these `may_leave`.
     """
@@ -100,7 +114,7 @@ def films_at_rest(
         if may_leave and model.surely_thin(loads.places[n], force[n]):
             thin[n], rows[n, at.RESIDUAL] = True, np.inf
             continue
-        for start in loads.starts(n, last, rows, begun(model, n)):
+        for start in loads.starts(n, last, rows, begun and begun.on(model, n)):
             row = loads.solve(start.place, n, slopes=slopes)
             residual, iterations, answered, rounding = row[at.RESIDUAL : at.RESULTS]
             spent += start.spent + int(iterations)
@@ -144,21 +158,14 @@ class _Loads:
         self.places = model.estimates(force, speed, lines)
 
     def solve(
-        self,
-        place: Array,
-        n: int,
-        size: int | None = None,
-        slopes: Array = _NO_SLOPES,
-        speed: float | None = None,
-        most: int | None = None,
+        self, place: Array, n: int, size: int | None = None, slopes: Array = _NO_SLOPES
     ) -> Array:
         """Row of load `n`; `place` moves in `size` coordinates to where it is carried."""
         model, this, row = self.model, slice(n, n + 1), np.zeros((1, self.model.columns))
         solve(
             model.film, model.work, place, model.size if size is None else size, 0, _AT_REST,
-            self.loads[this], self.lines[this],
-            self.speed[this] if speed is None else np.array([speed]), self.control.tolerance,
-            most or self.control.max_iterations, row, slopes, COLD, standing_states(1),
+            self.loads[this], self.lines[this], self.speed[this], self.control.tolerance,
+            self.control.max_iterations, row, slopes, COLD, standing_states(1),
         )  # fmt: skip
         return row[0]
 
@@ -209,17 +216,9 @@ class _Loads:
 
         Returns the steps of ways that led nowhere.
         """
-        this, speed = slice(n, n + 1), float(self.speed[n])
-
-        def place_at(speed: float) -> Array:
-            return self.model.estimates(self.force[this], np.array([speed]), self.lines[this])[0]
-
-        def rest(place: Array, speed: float, most: int, size: int | None = None) -> Array:
-            return self.solve(place, n, size, speed=speed, most=most)
-
-        creep = Creep(self.model, self.force[n], place_at, rest, self.control.max_iterations)
-        told = 0
-        for place in creep.places(speed):
+        one, told = (self.force[n : n + 1], self.lines[n : n + 1]), 0
+        creep = Creep(self.model, *one, self.control, COLD, standing_states(1))
+        for place in creep.places(float(self.speed[n])):
             yield Start(place, spent=creep.spent - told)
             told = creep.spent
         return creep.spent - told
