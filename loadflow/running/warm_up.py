@@ -193,6 +193,7 @@ def _compile(
         say(Task(WHAT, left[done]), done, len(jobs))
     for mark in marks:
         with suppress(OSError):
+            mark.parent.mkdir(exist_ok=True)
             mark.touch()
             break
 
@@ -316,4 +317,6 @@ def kernel_folders() -> list[Path]:
     if chosen := os.environ.get("NUMBA_CACHE_DIR"):
         return [Path(chosen)]
     inside = Path(__file__).parent / "__pycache__"
-    return [inside] if os.access(inside, os.W_OK) else []
+    # it is missing where Python is told to write no bytecode, as it is in many containers
+    place = inside if inside.exists() else inside.parent
+    return [inside] if os.access(place, os.W_OK) else []

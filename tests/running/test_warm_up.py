@@ -165,3 +165,11 @@ def test_early_parts_are_taken_if_the_plan_has_their_settings(simulated, tmp_pat
         assert part_file(tmp_path, "loads", one).read_bytes() == before
         there = [case for case in (one, two) if part_file(tmp_path, "loads", case).exists()]
         assert there == taken
+
+
+def test_a_mark_is_kept_where_python_writes_no_bytecode(monkeypatch, tmp_path):
+    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
+    monkeypatch.setattr(warm_up, "__file__", str(tmp_path / "warm_up.py"))
+    mark = warm_up.kernel_folders()[0] / "x.compiled"
+    warm_up._compile(lambda job: "", {"other"}, [mark], TwoWorkers(), lambda *told: None)
+    assert mark.exists()
