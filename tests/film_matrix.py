@@ -52,8 +52,10 @@ FILM: dict[str, Any] = {
     "grading": "uniform",
 }  # fmt: skip
 OCCASIONS: dict[str, tuple[Verb, Steps]] = {
+    "position": ("at_position", Steps()),
     "rest": ("at_rest", Steps()),
     "motion": ("in_motion", Steps()),
+    "adaptive": ("in_motion", Steps(step="adaptive")),
     "closed": ("in_motion", Steps(periodic=True)),
 }
 RUNGS_SHOWN = ("grid", "reduced")
@@ -99,9 +101,16 @@ def asked(names: Iterable[str], rung: str) -> tuple[Film, JournalGeometry, dict[
     return Film(**film, rung=rung), JournalGeometry(**bearing), line
 
 
+def asks(names: Iterable[str], occasion: str) -> bool:
+    """Whether the verb has words for these parts: where position and tilt are given, a moment is not."""
+    return not (occasion == "position" and "moment" in names)
+
+
 def refused(names: Iterable[str], rung: str, occasion: str) -> str | None:
-    """Why parts do not go together on a rung at rest, in motion or on a closed path; or None."""
+    """Why parts do not go together on a rung on an occasion, by its name; or None."""
     film, bearing, line = asked(names, rung)
+    if not asks(names, occasion):
+        return "the moment is part of the answer"
     verb, steps = OCCASIONS[occasion]
     rows: dict[str, Any] = {name: np.array([values]) for name, values in line.items()}
     return why_not(verb, film, bearing, Line(**rows), steps)
@@ -109,7 +118,7 @@ def refused(names: Iterable[str], rung: str, occasion: str) -> str | None:
 
 def table(rung: str) -> list[str]:
     """Lines of the table of a rung: for each two parts the occasions on which they go together."""
-    letters = {"rest": "r", "motion": "m", "closed": "c"}
+    letters = {"position": "p", "rest": "r", "motion": "m", "adaptive": "a", "closed": "c"}
     rows = list(PARTS)
     lines = [f"| | {' | '.join(rows)} |", f"|---|{'---|' * len(rows)}"]
     for one in rows:

@@ -18,6 +18,7 @@ from loadflow.quantities import percent
 HARD = ROOT / "tests" / "hard"
 sys.path[:0] = [str(HARD), str(HARD.parent)]  # the cases are those of the tests
 
+import composed_cases  # noqa: E402, F401
 import friction_cases  # noqa: E402, F401
 import journal_cases  # noqa: E402, F401
 import motion_cases  # noqa: E402, F401

@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import composed_cases  # noqa: F401
 import friction_cases  # noqa: F401
 import journal_cases  # noqa: F401
 import motion_cases  # noqa: F401

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from film_matrix import BEARING, OCCASIONS, PARTS, RUNGS_SHOWN, asked, refused, table
+from film_matrix import BEARING, OCCASIONS, PARTS, RUNGS_SHOWN, asked, asks, refused, table
 
 from loadflow.errors import InputError
 from loadflow.journal import JournalBearing
@@ -21,9 +21,13 @@ def answer(names, rung, occasion):
     bearing = JournalBearing(**BEARING | {"shape": geometry.shape, "relief": geometry.relief})
     if occasion == "rest":
         return bool(bearing.equilibrium(LOAD, SPEED, film, **line).converged)
+    if occasion == "position":
+        place = 0.3 * bearing.clearance * np.array([0.8, -0.6])
+        return bool(bearing.pressure(place, SPEED, film, **line).converged)
     rows = {name: np.tile(values, (TIME.size, 1)) for name, values in line.items()}
     force = LOAD + np.outer(WAVE, [500.0, 0.0])
-    path = bearing.orbit(TIME, force, SPEED, film, periodic=occasion == "closed", **rows)
+    steps = {"step": "adaptive" if occasion == "adaptive" else "given"}
+    path = bearing.orbit(TIME, force, SPEED, film, periodic=occasion == "closed", **steps, **rows)
     return bool(np.isfinite(path.minimum_film).all())
 
 
@@ -43,12 +47,18 @@ def some(count, seed):
             if draw.random() < 0.5:
                 names.append(of_axis[draw.integers(len(of_axis))])
         rung = RUNGS_SHOWN[draw.integers(2)]
-        found.append((tuple(names), rung, [*OCCASIONS][draw.integers(3)]))
+        occasion = [*OCCASIONS][draw.integers(len(OCCASIONS))]
+        if asks(names, occasion):
+            found.append((tuple(names), rung, occasion))
     return found
 
 
 ALONE = [
-    ((name,), rung, occasion) for name in PARTS for rung in RUNGS_SHOWN for occasion in OCCASIONS
+    ((name,), rung, occasion)
+    for name in PARTS
+    for rung in RUNGS_SHOWN
+    for occasion in OCCASIONS
+    if asks((name,), occasion)
 ]
 PAIRS = [
     (names, rung, occasion)
@@ -56,6 +66,7 @@ PAIRS = [
     if fits(names)
     for rung in RUNGS_SHOWN
     for occasion in OCCASIONS
+    if asks(names, occasion)
 ]
 
 
