@@ -75,7 +75,7 @@ class Film:
         Grooves of the shell.
     inlet : {"auto", "widest gap"} or None
         Inlet line at the widest gap (ISO 7902) or none. "auto": the line for Reynolds and Gümbel
-        without a supply.
+        without a supply. In an orbit it turns with the widest gap, as no groove does.
     grid : tuple of int, optional
         Cells around and across the full width (even; half is solved where the film is symmetric).
         Default (60, 20) for the gas mixture, (120, 40) else.
