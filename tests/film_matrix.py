@@ -102,7 +102,7 @@ def asked(names: Iterable[str], rung: str) -> tuple[Film, JournalGeometry, dict[
 
 
 def asks(names: Iterable[str], occasion: str) -> bool:
-    """Whether the verb has words for these parts: where position and tilt are given, a moment is not."""
+    """Whether the verb has words for these parts: no moment is given with a position."""
     return not (occasion == "position" and "moment" in names)
 
 

@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
+import pint
 import pytest
 import xarray as xr
 from scipy.integrate import trapezoid
@@ -293,21 +294,27 @@ def test_statistics_of_the_accessor_are_those_of_the_command(cube):
         for name in ("mean", "std", "max"):
             assert own.sel(statistic=name).item() == record[name]
         assert own["units"].item() == record["units"]
+    fatigue = found.sel(statistic="del", drop=True)
+    np.testing.assert_allclose(fatigue, cube.lf.del_(m=4.0).squeeze("m"), rtol=1e-12)
 
 
 def test_equivalent_loads_are_those_of_the_series(cube):
     found = cube.lf.del_("hub_moment.y", m=[4.0, 10.0])
     assert found.dims == ("case", "channel", "m")
     series = cube["hub_moment"].sel(axis="y").isel(case=1).values
-    length = series.size * 0.25
+    length = (series.size - 1) * 0.25
     expected = damage_equivalent_load(series, [4.0, 10.0], length)
     assert np.allclose(found.isel(case=1, channel=0), expected)
     assert np.allclose(cube.lf.del_("hub_moment.y").squeeze("m"), found.sel(m=4.0))
+    assert found.attrs["units"] == "N m"
+    with pytest.raises(InputError, match="m=4"):
+        cube.lf.del_(4)
 
 
 def test_a_spectrum_holds_the_variance_of_the_series(cube):
     found = cube.lf.spectrum("hub_moment")
     assert found["frequency"].attrs["units"] == "Hz"
+    assert pint.Quantity(1.0, found.attrs["units"]).to("N^2 m^2 s").magnitude == 1.0
     for axis in ("y", "z"):
         series = cube["hub_moment"].sel(axis=axis).isel(case=0)
         density = found.sel(channel=f"hub_moment.{axis}").isel(case=0)

@@ -11,7 +11,7 @@ import xarray as xr
 from loadflow.cube.build import make_cube
 from loadflow.cube.hdf5_image import image
 from loadflow.cube.parts import Cube
-from loadflow.cube.schema import CUBE
+from loadflow.cube.schema import CUBE, FILE_ATTRIBUTES
 from loadflow.cube.trust import check_hdf5
 from loadflow.errors import InputError
 from loadflow.storage import check_room, written_whole
@@ -88,7 +88,7 @@ def write_cube(cube: Cube, path: Path) -> None:
     else:
         cube = cube.drop_encoding()
         keys = {"encoding": _encoding(cube)}
-    cube.attrs = {**cube.attrs, CUBE.key: CUBE.version}
+    cube.attrs = {**cube.attrs, **FILE_ATTRIBUTES}
     cube.to_netcdf(path, engine=ENGINE, **keys)
 
 
@@ -177,7 +177,8 @@ def _open(path: Path, chunks: Any) -> Cube:
         raise
     except Exception as error:  # h5py and h5netcdf raise of nearly every kind on damaged files
         raise InputError(f"{path}: cannot be read as HDF5; a part is damaged ({error})") from error
-    cube.attrs.pop(CUBE.key, None)
+    for name in FILE_ATTRIBUTES:
+        cube.attrs.pop(name, None)
     if isinstance(cube, xr.DataTree):
         return cube.map_over_datasets(lambda part: CUBE.upgrade(part, version, str(path)))
     return CUBE.upgrade(cube, version, str(path))

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.parts import Cube
-from loadflow.cube.schema import CUBE
+from loadflow.cube.schema import CUBE, FILE_ATTRIBUTES
 from loadflow.errors import InputError
 
 
@@ -119,7 +119,8 @@ def read_whole(path: Path) -> Cube:
     """
     with _opened(path) as file:
         groups = dict(_groups("/", file))
-    version = groups["/"].attrs.pop(CUBE.key, 1)
+    said = {name: groups["/"].attrs.pop(name, None) for name in FILE_ATTRIBUTES}
+    version = 1 if said[CUBE.key] is None else said[CUBE.key]
     groups = {name: CUBE.upgrade(part, version, str(path)) for name, part in groups.items()}
     return groups["/"] if len(groups) == 1 else xr.DataTree.from_dict(groups)
 

@@ -15,7 +15,7 @@ import xarray as xr
 from xarray.conventions import encode_cf_variable, encode_dataset_coordinates
 
 from loadflow.cube.parts import Cube
-from loadflow.cube.schema import CUBE
+from loadflow.cube.schema import FILE_ATTRIBUTES
 
 _BARE = "This is a netCDF dimension but not a netCDF variable."
 """What netCDF calls a dimension that has no values of its own, before its size."""
@@ -47,7 +47,7 @@ def image(cube: Cube) -> bytes:
             _write_node(file, cube, {})
         else:
             _write(file, cube, {})
-        file.attrs[CUBE.key] = CUBE.version
+        file.attrs.update(FILE_ATTRIBUTES)
     return stream.getvalue()
 
 

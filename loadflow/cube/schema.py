@@ -102,6 +102,11 @@ CUBE = Schema("load cube", "loadflow_schema", (_labelled,))
 """Form of cubes on disk, said by an attribute of the file. 2: every variable has ``long_name``;
 1, or no such attribute: it may be missing."""
 
+FILE_ATTRIBUTES: Mapping[str, str | int] = MappingProxyType(
+    {"Conventions": "CF-1.11", CUBE.key: CUBE.version}
+)
+"""What a file of a cube says of itself, beside the attributes of the cube."""
+
 
 def case_name(dlc: str, wind_speed: float, seed: int) -> str:
     """Return the name of a case.

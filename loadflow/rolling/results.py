@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.shown import Shown
+from loadflow.numerics.shown import Shown, cases_in_words, in_words
 from loadflow.quantities import ROLLING, Quantity
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
@@ -340,7 +340,7 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         return plots.element_forces(self.element_azimuth, groups, names)
 
     def __repr__(self) -> str:
-        what = f"{type(self.bearing).__name__}, {int(np.prod(self.cases))} load case(s)"
+        what = f"{type(self.bearing).__name__}, {cases_in_words(int(np.prod(self.cases)))}"
         lines = [f"<{type(self).__name__} of {what}>"]
         for name in ("maximum_force", "maximum_pressure", "static_safety", "rating_life"):
             _, units, meaning = ROLLING[name]
@@ -348,9 +348,10 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
             if isinstance(values, str):
                 lines.append(f"  {meaning:36s} none: {values}")
                 continue
-            low, high = float(values.min()), float(values.max())
-            span = f"{low:.4g}" if low == high else f"{low:.4g} … {high:.4g}"
-            lines.append(f"  {meaning:36s} {span} {'' if units == '1' else units}".rstrip())
+            spread = np.unique([values.min(), values.max()])
+            span, unit = in_words(spread, units)
+            span = span.replace(", ", " … ")
+            lines.append(f"  {meaning:36s} {span} {unit}".rstrip())
         failed = int(np.count_nonzero(~np.asarray(self.converged)))
         lines.append(f"  {'converged':36s} {'all' if not failed else f'all but {failed}'}")
         return "\n".join(lines)

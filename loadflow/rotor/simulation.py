@@ -403,7 +403,8 @@ def _dataset(out: np.ndarray, dt: float) -> xr.Dataset:
                 {
                     "units": "1",
                     "long_name": "supervisory state",
-                    "flag_meanings": ", ".join(STATES),
+                    "flag_values": np.arange(len(STATES), dtype=np.int8),
+                    "flag_meanings": " ".join(state.replace(" ", "_") for state in STATES),
                 },
             ),
         },

@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import iter_cases, time_step
+from loadflow.errors import InputError
+from loadflow.numerics.shown import FEW
 from loadflow.reduction import damage_equivalent_load
 from loadflow.stages.statistics import STATISTICS, describe
 from loadflow.studies.channels import channel, choose_channels
@@ -49,6 +51,11 @@ class LoadflowAccessor:
     def __init__(self, cube: xr.Dataset) -> None:
         self._cube = cube
 
+    def __repr__(self) -> str:
+        names = self.channels()
+        few = ", ".join(names[:FEW]) + (", …" if len(names) > FEW else "")
+        return f"<loadflow: {few}; .statistics(), .del_(m=4), .spectrum(), .plot()>"
+
     def channels(self, *wanted: str) -> list[str]:
         """Names of the wanted channels.
 
@@ -57,6 +64,10 @@ class LoadflowAccessor:
         loadflow.errors.InputError
             The cube has no such channel.
         """
+        if others := [name for name in wanted if not isinstance(name, str)]:
+            raise InputError(
+                f"channels are names, got {others[0]!r}; an exponent is m={others[0]!r}"
+            )
         found = [choose_channels(case.load(), wanted) for _, case in iter_cases(self._cube)]
         return list(dict.fromkeys(name for names in found for name in names))
 
@@ -99,13 +110,13 @@ class LoadflowAccessor:
         Raises
         ------
         loadflow.errors.InputError
-            An exponent or frequency that is not > 0.
+            An exponent or frequency that is not > 0; a channel that the cube has not.
         """
         exponents = np.atleast_1d(np.asarray(m, dtype=float))
 
         def found(series: xr.DataArray) -> np.ndarray:
             time = series["time"].values
-            duration = time[-1] - time[0] + time_step(series)
+            duration = time[-1] - time[0]
             return np.asarray(
                 damage_equivalent_load(series.values, exponents.tolist(), duration, f_eq)
             )
@@ -134,7 +145,12 @@ class LoadflowAccessor:
 
         frequency = np.fft.rfftfreq(length, step)
         found = self._each(
-            wanted, density, ("frequency",), {"frequency": frequency}, "power spectral density"
+            wanted,
+            density,
+            ("frequency",),
+            {"frequency": frequency},
+            "power spectral density",
+            "({})^2/Hz",
         )
         found["frequency"].attrs = {"units": "Hz", "long_name": "frequency"}
         return found
@@ -167,8 +183,12 @@ class LoadflowAccessor:
         dims: tuple[str, ...],
         coords: dict[str, Any],
         meaning: str,
+        unit: str = "{}",
     ) -> xr.DataArray:
-        """What is found of every channel of every case, as one array."""
+        """What is found of every channel of every case, as one array.
+
+        Its units are the `unit` of that of the channels, where they have one in common.
+        """
         names = self.channels(*wanted)
         cases, rows, units = [], [], [""] * len(names)
         for case, series in self._cases():
@@ -176,10 +196,11 @@ class LoadflowAccessor:
             units = [str(part.attrs.get("units", "1")) for part in parts]
             rows.append([work(part) for part in parts])
             cases.append(case)
+        common = unit.format(units[0]) if len(set(units)) == 1 else "see coordinate units"
         return xr.DataArray(
             np.array(rows),
             {"case": cases, "channel": names, "units": ("channel", units), **coords},
             ("case", "channel", *dims),
             meaning.replace(" ", "_"),
-            {"units": "those of the coordinate units", "long_name": meaning},
+            {"units": common, "long_name": meaning},
         )

@@ -56,7 +56,7 @@ def reversal_with_tilt():
 @hard(
     "journal",
     "viscosity ratio of 10³ across the film",
-    why="nearly all of the shear lies in a thin layer at the hot wall; a mean viscosity means nothing",
+    why="nearly all of the shear lies in a thin layer at the hot wall; a mean means nothing",
     what="integrals of the fluidity across the film through four points",
 )
 def viscosity_across():
@@ -74,7 +74,7 @@ def viscosity_across():
     assert ratio > 1000
     mean, across = (float(state.friction_power) for state in states)
     assert across < 0.6 * mean  # sheared where it is thin
-    return solved(states[1], f"{ratio:.0f} : 1; {across:.0f} W, {mean:.0f} W of one viscosity across")
+    return solved(states[1], f"{ratio:.0f} : 1; {across:.0f} W, {mean:.0f} W with a mean")
 
 
 @hard(
