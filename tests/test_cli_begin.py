@@ -31,7 +31,7 @@ def test_the_package_run_as_a_module_is_the_command_line():
 
 
 def test_init_writes_a_scene_that_is_valid(tmp_path, capsys):
-    path = tmp_path / "mine.toml"
+    path = tmp_path / "new" / "mine.toml"  # the folder is made
     assert "loadflow run" in call(capsys, "init", "-o", str(path)).out
     assert read_scene(path).name == "mine"
     assert "exists already" in call(capsys, "init", "-o", str(path), code=2).err

@@ -30,6 +30,21 @@ def test_an_unknown_key_of_a_room_is_named_too(tmp_path):
     assert "relative_clearance" in message
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("[shaft.two_point.beam]\nsectio = 1\n", "did you mean sections?"),
+        ("[journal]\ndiametre = 2.0\n", "did you mean geometry.diameter?"),
+        ('results = ["jornal.film"]\n', "did you mean journal.film?"),
+        ('turbine = "nrel-5"\n', "a table, [turbine], with keys of name, file"),
+    ],
+)
+def test_what_may_be_meant_is_told_of_tables_left_out_of_keys_below_and_of_words(
+    text, meant, tmp_path
+):
+    assert meant in refused(text, tmp_path)
+
+
 def test_a_negative_viscosity_is_named_with_its_range(tmp_path):
     message = refused("[journal.lubricant]\nviscosity = -0.05\n", tmp_path)
     assert "journal.lubricant.viscosity = -0.05" in message

@@ -106,8 +106,9 @@ def init(
     from loadflow.scene.scene import read_scene
     from loadflow.scene.templates import template_text
 
-    check_free(output, overwrite)
     text = template_text(template, name=output.stem)
+    check_free(output, overwrite)
+    output.parent.mkdir(parents=True, exist_ok=True)
     output.write_text(text, encoding="utf-8")
     loads = read_scene(output).loads
     given = " --loads 'path/to/*.outb'" if loads.source == "files" and not loads.files else ""

@@ -163,6 +163,8 @@ def _need_dask() -> None:
 
 
 def _open(path: Path, chunks: Any) -> Cube:
+    if path.suffix.lower() == ".toml":
+        raise InputError(f"{path}: a scene holds no series; they stand in the folder of its run")
     check_hdf5(path)
     try:
         tree = xr.open_datatree(path, engine=ENGINE, chunks=chunks)

@@ -94,7 +94,8 @@ def read_table(path: Path) -> Table:
         start = file.read(64)
     if not start:
         raise InputError(f"{path}: the file is empty")
-    table = _read_binary(path) if b"\0" in start else _read_text(path)
+    binary = b"\0" in start or (path.suffix.lower() == ".outb" and not start.isascii())
+    table = _read_binary(path) if binary else _read_text(path)
     first, unit = table.names[0], table.units[0]
     if first.casefold() != "time" or unit.casefold().strip("()") not in ("s", "sec"):
         raise InputError(f"{path}: first channel is {first!r} in {unit!r}, not time in s")

@@ -231,5 +231,5 @@ def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
     try:
         return Journal.model_validate(data)
     except ValidationError as error:
-        defaults = Journal().model_dump()
-        raise InputError(message(error, source, {(): ("journal",)}, defaults)) from error
+        schema = Journal.model_json_schema()
+        raise InputError(message(error, source, {(): ("journal",)}, schema)) from error

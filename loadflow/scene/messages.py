@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import difflib
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 from pydantic import ValidationError
 
-from loadflow.numerics.fields import shown, unknown_key
+from loadflow.numerics.fields import meant, shown, unknown_key
 from loadflow.scene.films import HEATS
 from loadflow.scene.places import AXIAL, GEOMETRIES, Location
+
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
 
 
 def message(
     error: ValidationError,
     source: str,
     origins: Mapping[Location, Location],
-    defaults: Mapping[str, Any],
+    schema: Mapping[str, Any],
 ) -> str:
     """Tell the errors of a scene.
 
@@ -29,8 +34,8 @@ def message(
         File of the scene.
     origins : mapping
         Where the data of a section was written.
-    defaults : mapping
-        Plain data of a scene of defaults, whose keys are known.
+    schema : mapping
+        JSON Schema of what was read, which says what keys there are.
     """
     lines = []
     for item in _of_stated_kind(error.errors()):
@@ -38,14 +43,18 @@ def message(
         key = ".".join(str(part) for part in written(place, origins)) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
-            known = _known(item["loc"], place, defaults)
-            lines.append(f"{source}: {key}: {unknown_key(str(item['loc'][-1]), known)}")
+            lines.append(f"{source}: {key}: {_unknown(item['loc'], schema)}")
         elif item["type"] == "missing":
             lines.append(f"{source}: {key}: this key is missing")
         elif item["type"] == "value_error":
             lines.append(f"{source}: {key}: {reason}")
+        elif item["type"] in _NO_TABLE:
+            keys = ", ".join(path for path, name in _known(item["loc"], schema) if path == name)
+            table = f"must be a table, [{key}]" + (f", with keys of {keys}" if keys else "")
+            lines.append(f"{source}: {key} = {shown(item['input'])}: {table}")
         else:
-            lines.append(f"{source}: {key} = {shown(item['input'])}: {reason}")
+            near = meant(str(item["input"]), re.findall("'(.*?)'", reason)) if _listed(item) else ""
+            lines.append(f"{source}: {key} = {shown(item['input'])}: {reason}{near}")
     return "\n".join(lines)
 
 
@@ -58,16 +67,87 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
     return location
 
 
-def _known(location: Location, place: list[int | str], defaults: Mapping[str, Any]) -> list[str]:
-    """Keys that are known where an unknown one stands."""
-    if len(location) > 2 and location[-3] == "geometry" and location[-2] in GEOMETRIES:
-        kind = GEOMETRIES[str(location[-2])]
-        return ["kind", *(field.name for field in fields(cast("Any", kind)))]
-    data: Any = defaults
-    for part in place[:-1]:
-        data = data.get(part) if isinstance(data, Mapping) else None
-    found = list(data) if isinstance(data, Mapping) else []
-    return [*found, "arrangement"] if place[:-1] == ["rolling"] else found
+_NO_TABLE = ("dataclass_type", "model_type", "dict_type", "mapping_type")
+"""What pydantic says of a value where a table should stand."""
+
+
+def _listed(item: ErrorDetails) -> bool:
+    """Whether a word is none of those that are allowed."""
+    return item["type"] == "literal_error" and isinstance(item["input"], str)
+
+
+def _unknown(location: Location, schema: Mapping[str, Any]) -> str:
+    """Say that a key is unknown, what is known there, and which may be meant, there or below."""
+    *above, name = location
+    known = _known(tuple(above), schema)
+    here = [key for path, key in known if path == key]
+    told = unknown_key(str(name), here)
+    if meant(str(name), here):
+        return told
+    near = difflib.get_close_matches(str(name), [key for _, key in known], n=1, cutoff=0.75)
+    below = [path for path, key in known if key in near]
+    return told.replace("unknown key", f"unknown key; did you mean {below[0]}?") if below else told
+
+
+def _known(location: Location, schema: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Keys that are known where an unknown one stands; beside each where it stands below there."""
+    if location[-2:-1] == ("geometry",) and location[-1] in GEOMETRIES:  # read by its kind
+        own = fields(cast("Any", GEOMETRIES[str(location[-1])]))
+        return [(name, name) for name in ("kind", *(field.name for field in own))]
+    nodes = [schema]
+    for part in location:
+        nodes = [found for node in nodes for found in _below(node, part, schema)]
+    found = {key: key for node in nodes for key in _keys(node, schema)}
+    deeper = {
+        f"{key}.{inner}": inner
+        for node in nodes
+        for key, below in _keys(node, schema).items()
+        for inner in _keys(below, schema)
+    }
+    more = ["arrangement"] if location == ("rolling",) else []  # written for a bearing
+    return [*((name, name) for name in (*found, *more)), *deeper.items()]
+
+
+def _below(
+    node: Mapping[str, Any], part: int | str, schema: Mapping[str, Any]
+) -> Iterator[Mapping[str, Any]]:
+    """What a schema says of one part of a place; a tag of pydantic leads to its alternative."""
+    for name, one in _alternatives(node, schema):
+        keys = one.get("properties", {})
+        kind = keys.get("kind", {})
+        if isinstance(part, int):
+            yield one["prefixItems"][0] if "prefixItems" in one else one.get("items", {})
+        elif part in keys:
+            yield keys[part]
+        elif part in (name, kind.get("const"), kind.get("default")):
+            yield one
+        elif isinstance(one.get("additionalProperties"), Mapping):
+            yield one["additionalProperties"]
+
+
+def _keys(node: Mapping[str, Any], schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Keys of a table, of all that it may be."""
+    return {
+        key: below
+        for _, one in _alternatives(node, schema)
+        for key, below in one.get("properties", {}).items()
+    }
+
+
+def _alternatives(
+    node: Mapping[str, Any], schema: Mapping[str, Any]
+) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Each of what a part of a schema may be, with its name where it has one."""
+    if "$ref" in node:
+        name = node["$ref"].rpartition("/")[2]
+        for inner, one in _alternatives(schema["$defs"][name], schema):
+            yield inner or name, one
+        return
+    several = [one for word in ("anyOf", "oneOf", "allOf") for one in node.get(word, ())]
+    if not several:
+        yield "", node
+    for one in several:
+        yield from _alternatives(one, schema)
 
 
 _TAGS: dict[int | str, Mapping[str, Any]] = {"geometry": GEOMETRIES, "heat": HEATS}

@@ -165,6 +165,13 @@ def test_missing_file_is_named(tmp_path):
         read_openfast(tmp_path / "absent.outb")
 
 
+def test_a_binary_file_without_a_zero_at_its_start_is_not_taken_for_text(tmp_path):
+    path = tmp_path / "run.outb"
+    path.write_bytes(bytes([200]) * 100 + bytes(10))
+    with pytest.raises(InputError, match="no OpenFAST binary file"):
+        read_openfast(path)
+
+
 @pytest.mark.parametrize(
     "garbage",
     [
