@@ -22,6 +22,7 @@ JOURNAL = ["--diameter=3", "--width=2.25", "--relative-clearance=5e-4", "--force
            "--speed-rpm=12", "--grid", "24", "8"]  # fmt: skip
 BALLS = ["--balls=60", "--ball-diameter=0.06", "--pitch-diameter=2", "--groove-radius=0.0315",
          "--force-z=1e6", "--moment-y=1e6"]  # fmt: skip
+PADS = 'geometry.shape={kind="tilting pads", count=2, arc=2.8}'
 COLLAR = ["--pads=8", "--inner-radius=0.8", "--outer-radius=1.2", "--pad-angle-deg=40",
           "--viscosity=0.1", "--force=5e5", "--speed-rpm=12", "--grid", "12", "6"]  # fmt: skip
 CONES = ["--half-angle-deg=28.6", "--slant", "1.59", "2.59", "--clearance=2e-4", "--distance=3.2",
@@ -37,6 +38,7 @@ CALLS = {
         "warm": [*JOURNAL, "--oil=mineral-vg-320", "--edge-pressure=5e5"],
         "grooves": [*JOURNAL, "--viscosity=0.05", "--groove-angle-deg=90", "--groove-length=1.5",
                     "--edge-pressure=1e5", "--mixing-constant=5e4", "--groove-arc-deg=12"],
+        "table of pads": [*JOURNAL, "--viscosity=0.05", "--set", PADS, "--coefficients=OUT/p.csv"],
     },
     "rolling": {
         "plain": BALLS,
@@ -97,6 +99,7 @@ VALUES = {
         "scene": ["SCENE"], "sets": ["geometry.width = 2.0"], "grid": ["36", "12"],
         "groove_angle_deg": ["80"], "groove_arc_deg": ["20"], "groove_length": ["1"],
         "supply_pressure": ["3e5"], "coefficients": ["OUT/k.csv"], "over_rpm": ["6", "12", "2"],
+        "whirl": ["2"],
     },
     "rolling": {
         "balls": ["50"], "ball_diameter": ["0.059"], "pitch_diameter": ["2.1"],
@@ -109,6 +112,7 @@ VALUES = {
         "speed_rpm": ["11"], "oil": ["lgwm-2"], "temperature_c": ["60"],
         "cleanliness": ["grease, severe contamination"],
         "coefficients": ["OUT/other.csv"], "over_rpm": ["6", "12", "2"], "loss": ["0.02"],
+        "whirl": ["2"],
     },
     "thrust": {
         "force": ["6e5"], "speed_rpm": ["13"], "pads": ["7"], "inner_radius": ["0.82"],

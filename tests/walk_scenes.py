@@ -536,6 +536,7 @@ OTHERS = {
     "journal.supply.grooves.0.restrictor": [{"diameter": 0.004, "length": 0.05}],
     "journal.supply.pump": [{"flow": [0.0, 0.01], "pressure": [8e5, 2e5]}],
     "dynamics.speed_range": [[0.8, 1.6]],
+    "dynamics.whirl": [0.5],
     "wear.running_in.initial_roughness": [1.0000001e-6],
     "thrust.rung": ["curve"],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],

@@ -440,6 +440,7 @@ def outcome(work: Callable[[], Any], clock: Clock) -> tuple[str, str]:
 def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, Any]:
     """Counts of one family."""
     counts: Counter[str] = Counter()
+    raised: list[tuple[int, str]] = []
     longest = total = 0.0
     for number in numbers:
         rng = np.random.default_rng([SEEDS[family], number])
@@ -450,6 +451,8 @@ def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, 
         longest, total = max(longest, spent), total + spent
         counts["slow"] += spent > SLOW
         counts[kind] += 1
+        if kind == "raw":
+            raised.append((number, text))
         if show and (kind != "answered" or spent > SLOW):
             law = type(point.film["cavitation"]).__name__
             more = type(point.shape.get("shape", point.film.get("shell", ""))).__name__
@@ -458,7 +461,7 @@ def run(family: str, numbers: range, show: bool, cap: float = 0.0) -> dict[str, 
             print(f"{head}, {spent:.1f} s: {text}", flush=True)
     names = ("answered", "reason", "unfound", "raw", "late", "slow")
     row: dict[str, Any] = {"draws": len(numbers), "cap": cap}
-    row |= {name: counts[name] for name in names}
+    row |= {name: counts[name] for name in names} | {"raised": raised}
     return row | {"mean": round(total / len(numbers), 3), "longest": round(longest, 2)}
 
 

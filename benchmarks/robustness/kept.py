@@ -2,7 +2,8 @@
 
 `tests/hard/families.json` holds them by family as ranges of numbers, each with the state of the
 package it was drawn with; `python -m benchmarks.robustness.families --keep` goes on where a family
-ends, and writes after every block, so that a run may be ended at any time.
+ends, and writes after every block, so that a run may be ended at any time. Of a draw that raised
+what must not be, number and error are kept, too: `--first NUMBER --draws 1 --show` repeats it.
 """
 
 from __future__ import annotations
@@ -64,10 +65,13 @@ def added(ranges: Ranges, first: int, of: str, counts: dict[str, Any]) -> Ranges
     missing = counts["draws"] - sum(block[name] for name in OUTCOMES)
     if missing or first < next_number(ranges):
         raise ValueError(f"draws from {first} on: {missing} without an outcome, or drawn before")
+    if raised := counts.get("raised"):
+        block["raised"] = raised
     if ranges and _goes_on(ranges[-1], block):
         last = ranges[-1]
         sums = {name: last[name] + block[name] for name in ("draws", *OUTCOMES)}
-        return [*ranges[:-1], last | sums]
+        known = {"raised": [*last.get("raised", []), *raised]} if raised else {}
+        return [*ranges[:-1], last | sums | known]
     return [*ranges, block]
 
 

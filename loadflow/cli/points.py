@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
 
@@ -12,9 +12,6 @@ from loadflow.cli.base import AsJson, app, out, print_json, print_quantities, pr
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
 from loadflow.quantities import CELSIUS
-
-if TYPE_CHECKING:
-    from loadflow.journal import Film, JournalBearing
 
 
 @app.command("wind")
@@ -134,11 +131,18 @@ def journal(
         tuple[float, float, int] | None,
         typer.Option(help="Speeds of --coefficients: first, last (1/min), and how many."),
     ] = None,
+    whirl: Annotated[
+        float | None,
+        typer.Option(
+            help="Frequency of the vibration over the speed, for tilting pads; with "
+            "--coefficients, default 1."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Solve the film of a journal bearing for one load, or for a reduced series."""
     from loadflow.studies.journal_film import journal_film
-    from loadflow.studies.journal_point import journal_point, journal_series
+    from loadflow.studies.journal_point import journal_coefficients, journal_point, journal_series
 
     if oil is None:
         refuse("the oil has one viscosity; give --oil", "inlet_temperature_c", "transfer")
@@ -174,12 +178,19 @@ def journal(
         },
         keys={"edge_pressure": edge_pressure, "rung": rung, "inlet": inlet, "grid": grid},
     )
-    if over_rpm is not None and coefficients is None:
-        raise InputError("--over-rpm are the speeds of a table: give its file with --coefficients")
-    if coefficients is not None:
-        _coefficients(
-            coefficients, bearing, film, (force_x, force_y), speed_rpm, over_rpm, series, as_json
-        )
+    if coefficients is None:
+        refuse("they are of a table: give its file with --coefficients", "over_rpm", "whirl")
+    else:
+        if not bearing.has_pads:
+            refuse("K and C of a bore without tilting pads are one at every frequency", "whirl")
+        if rung != "grid":
+            refuse("K and C over speed are those of the rung grid", "rung")
+        if series is not None or force_x is None:
+            raise InputError("--coefficients: give one load with --force-x, no --series")
+        rows = _speeds(speed_rpm, over_rpm)
+        share = 1.0 if whirl is None else whirl
+        table = journal_coefficients(coefficients, (force_x, force_y), rows, bearing, film, share)
+        _show_coefficients(coefficients, table, share, as_json)
         return
     if series is not None:
         refuse("--series brings its own loads", "force_x", "force_y", "speed_rpm")
@@ -190,26 +201,6 @@ def journal(
         force, speed = (force_x, force_y), speed_rpm * math.pi / 30
         answer = journal_point(force, speed, bearing, film)
     print_quantities(answer, as_json)
-
-
-def _coefficients(
-    file: Path,
-    bearing: JournalBearing,
-    film: Film,
-    force: tuple[float | None, float],
-    speed_rpm: float | None,
-    over_rpm: tuple[float, float, int] | None,
-    series: Path | None,
-    as_json: bool,
-) -> None:
-    """Write stiffness and damping over speed, and show them."""
-    from loadflow.studies.journal_point import journal_coefficients
-
-    if series is not None or force[0] is None:
-        raise InputError("--coefficients: give one load with --force-x, no --series")
-    rows = _speeds(speed_rpm, over_rpm)
-    table = journal_coefficients(file, (force[0], force[1]), rows, bearing, film)
-    _show_coefficients(file, table, as_json)
 
 
 def _speeds(
@@ -226,11 +217,15 @@ def _speeds(
     return first * math.pi / 30, last * math.pi / 30, count
 
 
-def _show_coefficients(file: Path, table: list[dict[str, float]], as_json: bool) -> None:
+def _show_coefficients(
+    file: Path, table: list[dict[str, float]], whirl: float, as_json: bool
+) -> None:
     if as_json:
-        print_json({"file": str(file), "rows": table})
+        print_json({"file": str(file), "whirl": whirl, "rows": table})
         return
     print_rows(tuple(table[0]), [[f"{value:.4g}" for value in row.values()] for row in table])
+    share = "" if whirl == 1.0 else f"{whirl:g} of "
+    out.print(f"of a vibration at {share}the speed")
     out.print(f"table    {file}", soft_wrap=True)
 
 
@@ -299,6 +294,13 @@ def rolling(
         float,
         typer.Option(help="Share of its stiffness that the steel loses; with --coefficients."),
     ] = 0.01,
+    whirl: Annotated[
+        float | None,
+        typer.Option(
+            help="Frequency of the vibration over the speed, for what steel and films lose; with "
+            "--coefficients, default 1."
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
@@ -341,7 +343,9 @@ def rolling(
         refuse("they count with an oil; give --oil", "temperature_c", "cleanliness")
     force, moment = (force_x, force_y, force_z), (moment_x, moment_y)
     if coefficients is None:
-        refuse("they are of a table: give its file with --coefficients", "over_rpm", "loss")
+        refuse(
+            "they are of a table: give its file with --coefficients", "over_rpm", "loss", "whirl"
+        )
     else:
         refuse("K and C over speed are those of rigid rings", "inner_ring", "outer_ring", "wall")
         refuse(
@@ -349,10 +353,11 @@ def rolling(
             "hardness", "life_hardness_factor", "cleanliness",
         )  # fmt: skip
         warm = None if oil is None else (oil, temperature_c + CELSIUS)
+        share = 1.0 if whirl is None else whirl
         table = rolling_coefficients(
-            coefficients, found[0], force, moment, _speeds(speed_rpm, over_rpm), warm, loss
+            coefficients, found[0], force, moment, _speeds(speed_rpm, over_rpm), warm, loss, share
         )
-        _show_coefficients(coefficients, table, as_json)
+        _show_coefficients(coefficients, table, share, as_json)
         return
     speed = None if speed_rpm is None else speed_rpm * math.pi / 30
     lubrication = None

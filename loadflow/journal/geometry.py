@@ -75,6 +75,11 @@ class JournalGeometry:
         """B/D."""
         return self.width / self.diameter
 
+    @property
+    def has_pads(self) -> bool:
+        """Whether parts of the bore tilt, so that K and C depend on the frequency of vibration."""
+        return any(part.tilting for part in self.shape.segments)
+
     def sommerfeld_number(self, force: ArrayLike, speed: ArrayLike, viscosity: ArrayLike) -> Any:
         """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load, else ∞ at rest.
 

@@ -241,7 +241,8 @@ class _Choosing:
                     self._shares(self.with_sections(fixed | {name: one}), links, name, tuple(fixed))
                     for one in found
                 ]
-                table = (table[:, None] + np.array(own)).reshape(-1, len(links))
+                # the number of rows is said: results without links have no columns to find it by
+                table = (table[:, None] + own).reshape(len(table) * len(own), len(links))
             held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
             for name in held:
                 table = table + self._shares(scene, links, name, tuple(fixed))

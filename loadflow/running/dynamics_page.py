@@ -26,14 +26,28 @@ def dynamics_section(data: xr.Dataset) -> Section:
     heads = [f"K {e}, GN/m" for e in entry] + [f"C {e}, GN s/m" for e in entry]
     tables = [Table("Bearings at mean load and speed", ["load case", *heads], rows)]
     text = (
-        "Axes: x down, y to the left looking downwind. C belongs to a vibration at the speed of "
-        "the shaft; modes on rolling bearings have it at their own frequencies. Over speed: the "
-        "tables in the folder coefficients, as ROSS reads them."
+        "Axes: x down, y to the left looking downwind. K and C belong to a vibration at "
+        f"{_of_speed(float(np.max(data['whirl'])))}. Over speed: the tables in the folder "
+        "coefficients, as ROSS reads them."
     )
     if "natural_frequency" in data:
         tables.append(_modes(data, cases))
-        text += " Marked: a shaft line whose whirl grows."
+        text += (
+            f" Modes have K and C of {_vibration(data)}. Marked: a shaft line whose whirl grows."
+        )
     return Section("Rotor dynamics", text, tables=tables)
+
+
+def _of_speed(whirl: float) -> str:
+    return "the speed of the shaft" if whirl == 1.0 else f"{whirl:g} of the speed of the shaft"
+
+
+def _vibration(data: xr.Dataset) -> str:
+    """Of which vibration K and C of the modes are."""
+    taken, swing = data["vibration_frequency"], data["natural_frequency"]
+    if bool(((taken == swing) | np.isnan(swing)).all()):
+        return "their own frequencies"
+    return f"a vibration at {_of_speed(float(np.max(data['whirl'])))}"
 
 
 def _modes(data: xr.Dataset, cases: list[str]) -> Table:

@@ -32,6 +32,11 @@ class Dynamics(Section, BaseModel):
     of speed under an ``unbalance`` (kg m) of the rotor. The shaft has the suspension's
     ``shaft_mass``, or is of steel where that is 0; the rotor is a rigid disc.
 
+    Tilting pads and rolling bearings have other stiffness and damping at another frequency of
+    vibration. With ``whirl = "own"`` each mode is found with those of its own frequency, and the
+    tables have those of the speed; a number is the frequency over the speed that modes and tables
+    take instead. The response to unbalance always has those of the speed.
+
     Contacts of rolling bearings are those of ``contact_model``: "film", steel in series with the
     oil of ``[friction]``; "dry", steel alone; "proportional", steel that damps with
     ``time_constant`` (s) times its stiffness. In the first two the steel loses the share ``loss``
@@ -42,9 +47,15 @@ class Dynamics(Section, BaseModel):
     points: Annotated[int, Field(ge=2, le=100)] = 5
     modes: Annotated[int, Field(ge=1, le=50)] = 6
     unbalance: Annotated[float, Field(ge=0)] = 0.0
+    whirl: Positive | Literal["own"] = "own"
     contact_model: Literal["film", "dry", "proportional"] = "film"
     loss: Annotated[float, Field(ge=0, le=1)] = 0.01
     time_constant: Positive = 1e-5
+
+    @property
+    def whirl_of_tables(self) -> float:
+        """Frequency of vibration over the speed to which the tables belong."""
+        return 1.0 if self.whirl == "own" else self.whirl
 
     @model_validator(mode="after")
     def _rises(self) -> Self:

@@ -394,6 +394,8 @@ def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
     else:
         for key in ("contact_model", "loss", "time_constant"):
             yield key, f"the result {OF_ROLLING} is not wanted"
+        if not any(scene.journal.at(place).geometry.has_pads for place in places):
+            yield "whirl", "bores without tilting pads have one K and C at every frequency"
     if not any(c.beam is not None and places & set(c.bearings) for c in scene.shaft.concepts):
         for key in ("modes", "unbalance"):
             yield key, f"no suspension with a {' or '.join(kinds)} bearing has a beam"

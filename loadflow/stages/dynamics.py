@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from numpy.typing import ArrayLike
 
 from loadflow.errors import SolverError
 from loadflow.journal import coefficient_table, rotor_coefficients
@@ -26,7 +27,7 @@ from loadflow.stages.film_support import TURN
 from loadflow.stages.frames import to_film
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.rolling_support import rolling_model
-from loadflow.stages.stage import Stage, always
+from loadflow.stages.stage import Rungs, Stage, always
 from loadflow.stages.summary import over_cases
 from loadflow.turbines import load_turbine
 
@@ -61,14 +62,18 @@ def dynamics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     speeds = speed * np.union1d(
         np.linspace(*scene.dynamics.speed_range, scene.dynamics.points), 1.0
     )
+    whirl = scene.dynamics.whirl_of_tables
     tables: dict[str, xr.Dataset] = {}
     follow: dict[str, At] = {}
     for name in _films_of(scene):
-        tables[name] = _film(scene, name, mean, speeds)
+        film = _film(scene, name, mean)
+        tables[name] = film(speeds, whirl)
+        if scene.journal.at(name).geometry.has_pads:
+            follow[name] = partial(_at_frequency, film)
     for name, part in _rolling_of(scene).items():
         follow[name] = _rolling(scene, part, mean)
-        tables[name] = _synchronous(follow[name], speeds).assign(_loads(mean, name))
-    bearings = _Bearings(tables, follow)
+        tables[name] = _over(follow[name], speeds, whirl).assign(_loads(mean, name))
+    bearings = _Bearings(tables, follow, whirl)
     found = {name: table.assign_attrs(mean_speed=speed) for name, table in tables.items()}
     for name, concept in scene.shaft.suspensions.items():
         if concept.beam is None or not set(concept.bearings) & set(found):
@@ -79,14 +84,17 @@ def dynamics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
 
 @dataclass(frozen=True)
 class _Bearings:
-    """Tables of all bearings over speed, and those that depend on the frequency by themselves."""
+    """Tables of all bearings over speed, of vibration at `whirl` of it; those that depend on the
+    frequency by themselves.
+    """
 
     tables: Mapping[str, xr.Dataset]
     follow: Mapping[str, At]
+    whirl: float
 
-    def at(self, name: str, speed: float, frequency: float | None) -> tuple[Floats, Floats]:
-        """Stiffness and damping in the coordinates of the shaft line; synchronous by default."""
-        if name in self.follow and frequency is not None:
+    def at(self, name: str, speed: float, frequency: float) -> tuple[Floats, Floats]:
+        """Stiffness and damping in the coordinates of the shaft line."""
+        if name in self.follow and frequency != self.whirl * abs(speed):
             table = self.follow[name](speed, frequency)
         else:
             # exact at the speeds that are tabulated, which are all that are asked for
@@ -109,17 +117,28 @@ def _rolling_of(scene: Scene) -> dict[str, FurtherBearing]:
     return turning(scene.rolling, scene.shaft) if OF_ROLLING in scene.results else {}
 
 
-def _film(scene: Scene, name: str, mean: xr.Dataset, speeds: Floats) -> xr.Dataset:
+def _film(scene: Scene, name: str, mean: xr.Dataset) -> Callable[[ArrayLike, float], xr.Dataset]:
+    """Speeds and share of the vibration in them → stiffness and damping of a film."""
     options = scene.journal.at(name)
     here = mean.sel(bearing=name)
     force = here["force"].values.astype(float)
     line: dict[str, Any] = {key: to_film(value) for key, value in _line(options, here).items()}
-    try:
-        return rotor_coefficients(
-            options.geometry, to_film(force), speeds, options.film_model, **line
-        )
-    except SolverError as error:
-        raise SolverError(f"bearing {name}: {error}") from error
+
+    def over(speeds: ArrayLike, whirl: float) -> xr.Dataset:
+        try:
+            return rotor_coefficients(
+                options.geometry, to_film(force), speeds, options.film_model, whirl=whirl, **line
+            )
+        except SolverError as error:
+            raise SolverError(f"bearing {name}: {error}") from error
+
+    return over
+
+
+def _at_frequency(
+    film: Callable[[ArrayLike, float], xr.Dataset], speed: float, frequency: float
+) -> xr.Dataset:
+    return film([speed], abs(frequency / speed)).isel(speed=0)
 
 
 def _rolling(scene: Scene, part: FurtherBearing, mean: xr.Dataset) -> At:
@@ -154,9 +173,9 @@ def _rolling(scene: Scene, part: FurtherBearing, mean: xr.Dataset) -> At:
     return at
 
 
-def _synchronous(at: At, speeds: Floats) -> xr.Dataset:
-    """Over the speed, of a vibration that turns with the shaft."""
-    rows = [at(float(speed), abs(float(speed))) for speed in speeds]
+def _over(at: At, speeds: Floats, whirl: float) -> xr.Dataset:
+    """Over the speed, of a vibration at a share of it."""
+    rows = [at(float(speed), whirl * abs(float(speed))) for speed in speeds]
     return xr.concat(rows, "speed", combine_attrs="override")
 
 
@@ -185,18 +204,27 @@ def _vibration(
     """Modes at the mean speed, and the response to unbalance over the range of speed."""
     line, asked = _shaft_of(scene, concept), scene.dynamics
 
-    def supports(speed: float, frequency: float | None = None) -> list[LineSupport]:
+    def supports(speed: float, frequency: float) -> list[LineSupport]:
         return _supports(scene, concept, bearings, mean, speed, frequency)
 
-    carried: Sequence[LineSupport] | Callable[[float], Sequence[LineSupport]] = supports(speed)
-    if set(concept.bearings) & bearings.follow.keys():
+    vibration = bearings.whirl * abs(speed)
+    carried: Sequence[LineSupport] | Callable[[float], Sequence[LineSupport]]
+    carried = supports(speed, vibration)
+    if asked.whirl == "own" and set(concept.bearings) & bearings.follow.keys():
         carried = partial(supports, speed)
     found = modes(line, carried, speed, count=asked.modes)
+    swing = found["natural_frequency"]
+    taken = swing if asked.whirl == "own" else xr.full_like(swing, vibration)
+    found["vibration_frequency"] = taken.assign_attrs(
+        long_name="frequency of vibration to which stiffness and damping of the bearings belong"
+    )
     if asked.unbalance == 0.0:
         return found
     name = next(name for name in concept.bearings if name in bearings.tables)
     speeds = bearings.tables[name]["speed"].values
-    out = unbalance_response(line, supports, speeds, asked.unbalance)
+    out = unbalance_response(
+        line, lambda speed: supports(speed, abs(speed)), speeds, asked.unbalance
+    )
     worst = out.attrs["residual"]
     return found.merge(out, combine_attrs="drop_conflicts").assign_attrs(
         found.attrs, unbalance_residual=worst
@@ -230,9 +258,9 @@ def _supports(
     bearings: _Bearings,
     mean: xr.Dataset,
     speed: float,
-    frequency: float | None,
+    frequency: float,
 ) -> list[LineSupport]:
-    """What carries the shaft at a speed: films, rolling bearings, given stiffness, or rigid."""
+    """What carries a shaft that vibrates: films, rolling bearings, given stiffness, or rigid."""
     assert concept.beam is not None
     supports = []
     for name, position, support in zip(
@@ -295,7 +323,12 @@ def _of_case(tree: xr.DataTree) -> xr.Dataset:
     found = xr.concat(
         at_mean, "bearing", data_vars="all", join="outer", combine_attrs="drop_conflicts"
     ).assign_coords(bearing=list(films))
-    found = found.assign(mean_speed=((), speed, {"units": "rad/s", "long_name": "mean speed"}))
+    whirl = next(iter(films.values())).attrs["whirl"]
+    about = "frequency of vibration over speed to which stiffness and damping belong"
+    found = found.assign(
+        mean_speed=((), speed, {"units": "rad/s", "long_name": "mean speed"}),
+        whirl=((), whirl, {"units": "1", "long_name": about}),
+    )
     if not lines:
         return found
     modal = [_modal(node) for node in lines.values()]
@@ -305,6 +338,7 @@ def _of_case(tree: xr.DataTree) -> xr.Dataset:
 
 def _modal(node: xr.Dataset) -> xr.Dataset:
     kept = ["natural_frequency", "damped_frequency", "damping_ratio", "forward", "residual"]
+    kept += ["vibration_frequency"]
     growth = {"units": "1/s", "long_name": "largest real part of all roots; > 0: unstable"}
     found = node[kept].assign(largest_growth=((), node.attrs["largest_growth"], growth))
     if "amplitude" not in node:
@@ -315,12 +349,22 @@ def _modal(node: xr.Dataset) -> xr.Dataset:
 
 
 def tables(case: Case, tree: xr.DataTree) -> dict[str, str]:
-    """Stiffness and damping of each bearing as a table for rotor dynamics, by its file's name."""
+    """Stiffness and damping of each bearing as a table for rotor dynamics, by its file's name.
+
+    The columns are those of ROSS, so that the name says of which vibration they are where it is not
+    that of the speed.
+    """
+    bearings = {name: node for name, node in tree.children.items() if "stiffness" in node}
     return {
-        f"coefficients/{case.name}_{name}.csv": coefficient_table(node.to_dataset())
-        for name, node in tree.children.items()
-        if "stiffness" in node
+        f"coefficients/{case.name}_{name}{_share(node.attrs['whirl'])}.csv": coefficient_table(
+            node.to_dataset()
+        )
+        for name, node in bearings.items()
     }
+
+
+def _share(whirl: float) -> str:
+    return "" if whirl == 1.0 else f"_whirl_{whirl:g}"
 
 
 def warnings(tree: xr.DataTree) -> list[str]:
@@ -340,9 +384,19 @@ def warnings(tree: xr.DataTree) -> list[str]:
     ]
 
 
+def _model(scene: Scene) -> str:
+    """Of which vibration stiffness and damping are, in words."""
+    if scene.dynamics.whirl == "own":
+        return "K, C of each mode at its own frequency"
+    return f"K, C of vibration at {scene.dynamics.whirl:g} of the speed"
+
+
 STAGE = Stage(
     "dynamics",
     run=dynamics,
+    models=(
+        Rungs("dynamics", section="dynamics", key=lambda s: "-", text=_model, exact=lambda s: True),
+    ),
     results={OF_FILMS: lambda scene: {}, OF_ROLLING: lambda scene: {}},
     needs=always("loads", "shaft"),
     sections=lambda scene: (

@@ -147,6 +147,7 @@ def journal_coefficients(
     speeds: tuple[float, float, int],
     bearing: JournalBearing,
     film: Film,
+    whirl: float = 1.0,
 ) -> list[dict[str, float]]:
     """Write stiffness and damping over speed as a table for rotor dynamics; return its rows.
 
@@ -158,6 +159,8 @@ def journal_coefficients(
         N.
     speeds : tuple
         First and last (rad/s), and how many.
+    whirl : float
+        Frequency of the vibration over the speed, at which tilting pads follow the shaft.
 
     Raises
     ------
@@ -169,7 +172,7 @@ def journal_coefficients(
     from loadflow.journal import rotor_coefficients
 
     return written_coefficients(
-        file, lambda: rotor_coefficients(bearing, force, np.linspace(*speeds), film)
+        file, lambda: rotor_coefficients(bearing, force, np.linspace(*speeds), film, whirl=whirl)
     )
 
 

@@ -150,6 +150,7 @@ def rolling_coefficients(
     speeds: tuple[float, float, int],
     oil: tuple[str, float] | None = None,
     loss: float = 0.01,
+    whirl: float = 1.0,
 ) -> list[dict[str, float]]:
     """Write stiffness and damping over speed as a table for rotor dynamics; return its rows.
 
@@ -166,6 +167,8 @@ def rolling_coefficients(
         Lubricant by name and temperature, K, of contacts with films; without it they are dry.
     loss : float
         Share of its stiffness that the steel loses.
+    whirl : float
+        Frequency of the vibration over the speed.
 
     Raises
     ------
@@ -179,8 +182,9 @@ def rolling_coefficients(
     options = oil and FrictionOptions(oil=lubricant(oil[0]), temperature=oil[1])
     result: Any = bearing.equilibrium(force, moment)
     told: dict[str, Any] = {"model": "film", "options": options} if options else {"model": "dry"}
+    told |= {"loss": loss, "whirl": whirl}
     return written_coefficients(
-        file, lambda: coefficients_over_speed(result, np.linspace(*speeds), loss=loss, **told)
+        file, lambda: coefficients_over_speed(result, np.linspace(*speeds), **told)
     )
 
 

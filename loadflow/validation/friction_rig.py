@@ -15,15 +15,17 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.journal import JournalBearing
-from loadflow.rolling.friction import seal_torque
+from loadflow.journal import Contact, Film, Guembel, JournalBearing, Lubricant
 from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
 from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, RowOnRig
+from loadflow.tribology import AsperityContact
 
 from .check import Check, evidence
 
 _MASSES = "the share of the load's losses follows the masses of the crank, which are not printed"
 _FAST, _SLOW = 6000.0, 500.0
+_REST = 10.0  # 1/min: a tenth of it changes the torque by 0.2 %
+_GRAVITY = 9.81  # m/s²
 
 
 def _uneven(bearing: RowOnRig, share: float = 0.5) -> RowOnRig:
@@ -135,11 +137,36 @@ def _configurations() -> Iterator[Check]:
         "speed at which both are alike", source, 1500.0, crossing, 250.0, "absolute", "1/min",
         "width and clearance of the journal bearing, and the masses, are not printed",
     )  # fmt: skip
-    # a smooth film loses nothing as the speed falls, so that only the seal's torque is left
-    slow = float(seal_torque(0.0, 17.5e-3, journal.seal_force, 0.3))
-    for name, printed, rig in (("rollers", 0.17, rollers), ("journal bearing", 0.35, journal)):
-        got = rig.friction_torque(10.0).torque if rig is rollers else slow
+    slow = rollers.friction_torque(_REST)
+    rubbing = rubbing_torque(journal)
+    # the journal bearing takes the place of the rollers on the pin and of their cage
+    others = sum(torque for part, torque in slow.torques.items() if part[:3] not in ("pin", "cag"))
+    for name, printed, got in (
+        ("rollers", 0.17, slow.torque), ("journal bearing", 0.35, others + rubbing),
+    ):  # fmt: skip
         yield Check(
             f"torque at rest, {name} on the pin", "ch. 7.3", printed, got, 0.05, "absolute", "N m",
             "not stated which seals and bearings of the rig the measured curve contains",
         )  # fmt: skip
+    assert journal.drive is not None
+    weight = _GRAVITY * (journal.drive.piston_mass + journal.drive.rod_mass)
+    yield Check(
+        "torque of the journal bearing at rest, μ W D/2", "Coulomb, of the weights", 0.12 * weight
+        * 24e-3, rubbing, 0.005, unit="N m", evidence="closed form",
+    )  # fmt: skip
+
+
+def rubbing_torque(rig: CrankRig) -> float:
+    """Torque of a journal bearing on the pin as it comes to rest, N m.
+
+    Nothing presses there but the weights of piston and rod, which rest on the asperities: roughness
+    and modulus, which are assumed, decide how deep they sink, not what they rub.
+    """
+    assert rig.drive is not None
+    assert rig.pin_film is not None
+    asperities = AsperityContact(roughness=0.4e-6, contact_modulus=1e11, factor=1e-3)
+    contact = Contact(asperities, friction=rig.adhesion)
+    film = Film(Lubricant(rig.viscosity), Guembel(), grid=(48, 12), contact=contact)
+    weight = _GRAVITY * (rig.drive.piston_mass + rig.drive.rod_mass)
+    speed = 1e-5  # rad/s: 0.01 % of the weight is left to the oil
+    return float(rig.pin_film.equilibrium((weight, 0.0), speed, film).friction_power) / speed

@@ -44,6 +44,23 @@ def test_what_ends_early_keeps_its_whole_blocks(tmp_path):
     assert kept.next_number(kept.read(file)["cylinder"]) == 50
 
 
+def test_what_must_not_be_raised_is_kept_with_its_number(monkeypatch, tmp_path):
+    def broken(point):
+        def work():
+            raise ZeroDivisionError("float division by zero")
+
+        return work
+
+    monkeypatch.setitem(FAMILIES, "cylinder", broken)
+    file = tmp_path / "families.json"
+    for _ in range(2):
+        kept.keep("cylinder", 1, lambda numbers: run("cylinder", numbers, show=False), file)
+    (whole,) = kept.read(file)["cylinder"]
+    error = "ZeroDivisionError: float division by zero"
+    assert whole["raised"] == [[0, error], [1, error]]
+    assert whole["raw"] == 2
+
+
 def test_another_state_of_the_package_is_a_range_of_its_own():
     ranges = kept.added([], 0, "old", counted(range(30)))
     ranges = kept.added(ranges, 30, "new", counted(range(30, 60)))
