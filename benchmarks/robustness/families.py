@@ -35,6 +35,9 @@ viscosity 1e-3 … 1 Pa s, speed ± 0.1 … 300 rad/s, So 1e-3 … 300, all five
 - pair: two such cones against each other, under the force of both films at some place, half of them
   under their moment, too, at a tilt that takes up to 0.3 of the gap.
 - orbit: 24 steps under a load that turns and pulsates, the fifth part closed; 1 in 3 "reduced".
+- composed: any of bores, supply, tilt or moment, shells, asperities, heat and turbulence together,
+  one in three in motion, one in three "reduced"; what does not go together is refused by name,
+  which counts as a reason.
 """
 
 from __future__ import annotations
@@ -85,6 +88,7 @@ from loadflow.journal import (
     ThickShell,
     ThrustBearing,
     TiltingPads,
+    Turbulence,
 )
 from loadflow.tribology import AsperityContact, ExponentialOil
 
@@ -95,6 +99,9 @@ REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hott
 REASONS += ("no heat balance below 423.15 K; at 423", "no heat balance: at")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
 SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12, "pads": 13}
+SEEDS |= {"composed": 14}
+LINE = ("tilt", "moment", "bend")
+"""Keywords that say how the shaft lies, one for all of a path."""
 
 
 @dataclass
@@ -135,8 +142,12 @@ class Point:
 
     def solve(self) -> Any:
         """The equilibrium."""
-        oil = Lubricant(self.viscosity)
-        return self.bearing.equilibrium(self.force, self.speed, oil, **self.film)
+        return self.bearing.equilibrium(self.force, self.speed, self.oil, **self.film)
+
+    @property
+    def oil(self) -> Lubricant | None:
+        """The liquid; None where the heat has it."""
+        return None if "heat" in self.film else Lubricant(self.viscosity)
 
 
 def powers(rng: np.random.Generator, low: float, high: float) -> float:
@@ -272,13 +283,19 @@ def shell(point: Point) -> Callable[[], Any]:
     return point.solve
 
 
-def contact(point: Point) -> Callable[[], Any]:
-    """Rough surfaces that touch, half of them around a shaft that tilts."""
+def rough(point: Point) -> Callable[[], Any]:
+    """Rough surfaces that touch."""
     rng = point.rng
     size = powers(rng, 1e-4, 3e-2) * point.gap
-    rough = AsperityContact(roughness=size, contact_modulus=115e9, factor=powers(rng, 1e-4, 1e-2))
-    point.film["contact"] = Contact(rough)
-    return line(point) if rng.random() < 0.5 else point.solve
+    both = AsperityContact(roughness=size, contact_modulus=115e9, factor=powers(rng, 1e-4, 1e-2))
+    point.film["contact"] = Contact(both)
+    return point.solve
+
+
+def contact(point: Point) -> Callable[[], Any]:
+    """Rough surfaces that touch, half of them around a shaft that tilts."""
+    work = rough(point)
+    return line(point) if point.rng.random() < 0.5 else work
 
 
 def touching(point: Point) -> Callable[[], Any]:
@@ -359,8 +376,8 @@ def heat(point: Point) -> Callable[[], Any]:
         point.film["cavitation"] = MassConserving()
         if rng.random() < 0.5:
             point.shape["shape"] = Lobes(int(rng.integers(1, 4)), preload=rng.uniform(0, 0.5))
-    film = Film(None, **(point.film | {"heat": balance}))
-    return lambda: point.bearing.equilibrium(point.force, point.speed, film)
+    point.film["heat"] = balance
+    return point.solve
 
 
 def pair(point: Point) -> Callable[[], Any]:
@@ -399,8 +416,21 @@ def orbit(point: Point) -> Callable[[], Any]:
         options |= {"rung": "reduced", "grid": (60, 12), "inlet": None}
     elif rng.random() < 0.3:
         options["periodic"] = True
-    oil = Lubricant(point.viscosity)
-    return lambda: point.bearing.orbit(times, force, point.speed, oil, **options)
+    held = {name: np.tile(options[name], (25, 1)) for name in LINE if name in options}
+    return lambda: point.bearing.orbit(times, force, point.speed, point.oil, **options | held)
+
+
+def composed(point: Point) -> Callable[[], Any]:
+    """Any parts together, at rest or in motion, on the grid or on "reduced"."""
+    rng, work = point.rng, point.solve
+    if rng.random() < 0.2:
+        point.film["turbulence"] = Turbulence()
+    for part in (shaped, supply, line, shell, rough, heat):
+        if rng.random() < 0.35:
+            part(point)
+    if rng.random() < 1 / 3:
+        point.film |= {"rung": "reduced", "grid": (60, 12), "inlet": None}
+    return orbit(point) if rng.random() < 0.35 else work
 
 
 FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
@@ -417,6 +447,7 @@ FAMILIES: dict[str, Callable[[Point], Callable[[], Any]]] = {
     "heat": heat,
     "pair": pair,
     "orbit": orbit,
+    "composed": composed,
 }
 
 

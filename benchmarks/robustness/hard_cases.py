@@ -42,6 +42,7 @@ FAMILIES = {
     "heat": "heat: one temperature of the film, or one of each place",
     "orbit": 'orbits, a third on "reduced"',
     "touching": "asperities that carry a good part of the load",
+    "composed": "any parts together, at rest and in motion",
 }
 """What the page calls the families of draws."""
 
