@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.stats import lmoment
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
@@ -137,14 +138,10 @@ def extreme_value(
 
 
 def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
-    """Location and scale of a Gumbel distribution by L-moments along the last axis."""
-    first, second = l_moments(x)
+    """Location and scale of a Gumbel distribution along the last axis.
+
+    By L-moments [Hosking and Wallis 1997].
+    """
+    first, second = lmoment(x, order=[1, 2], axis=-1)
     scale = second / np.log(2.0)
     return first - np.euler_gamma * scale, scale
-
-
-def l_moments(x: Floats) -> tuple[Floats, Floats]:
-    """First and second L-moment along the last axis [Hosking and Wallis 1997]."""
-    count = x.shape[-1]
-    weights = (2.0 * np.arange(count) - count + 1.0) / (count * (count - 1.0))
-    return x.mean(axis=-1), np.sort(x, axis=-1) @ weights

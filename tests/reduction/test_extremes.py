@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.stats import binom, lmoment
+from scipy.stats import binom
 
 from loadflow.errors import InputError
 from loadflow.reduction import block_maxima, extreme_value
-from loadflow.reduction.extremes import l_moments
 
 
 def test_interval_covers_the_true_level_as_often_as_it_says():
@@ -19,12 +18,6 @@ def test_interval_covers_the_true_level_as_often_as_it_says():
         covered += got.low <= level <= got.high
     low, high = binom.ppf([0.0005, 0.9995], 200, 0.9)
     assert low <= covered <= high
-
-
-@pytest.mark.parametrize("shape", [(2,), (3, 7), (4, 5, 60)])
-def test_l_moments_are_those_of_scipy(shape):
-    x = np.random.default_rng(4).gumbel(50, 4, shape)
-    np.testing.assert_allclose(l_moments(x), lmoment(x, order=[1, 2], axis=-1), rtol=1e-13)
 
 
 def test_large_sample_gives_the_parameters_and_scales():
