@@ -129,16 +129,19 @@ def right_hand_sides(state, fields, moves, around, across, slope, area, opened, 
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, ab):
-    """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
+def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, kl, ab):
+    """Band matrix ∂(balance + slack)/∂u, `ab` (n, width) as in `_band_kernels`.
+
+    The unknown of a cell that is held is multiplied by as much as its column has elsewhere, so that
+    no rows are exchanged for it.
+    """
     _, nx, nz = state.shape
     dz, area, gz = cells
     row = 1 if coef.shape[2] > 1 else 0
-    kl = (ab.shape[1] - 1) // 3
     mid = 2 * kl
     for at in range(ab.shape[0]):
-        for place in range(kl, ab.shape[1]):
-            ab[at, place] = 0.0  # what lies above is LAPACK's, for pivots
+        for place in range(ab.shape[1]):
+            ab[at, place] = 0.0
     dp = state[DP]
     df = state[DFILL]
     for i in range(nx + 1):
@@ -184,7 +187,10 @@ def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, ab):
                 at = order[i] * nz + k
                 for col in range(max(0, at - kl), min(n, at + kl + 1)):
                     ab[col, mid + at - col] = 0.0
-                ab[at, mid] = 1.0
+                largest = 1.0
+                for place in range(kl, 3 * kl + 1):
+                    largest = max(largest, abs(ab[at, place]))
+                ab[at, mid] = largest
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -228,41 +234,6 @@ def carried_by(slope, around, across, dz, order, columns, out):
                 for k in range(nz):
                     total += slope[i, k] * dz[k] * across[j, row * k] * columns[c, base + k]
                 out[c, j] += around[j, i] * total
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def substitute(factors, pivots, columns):
-    """Solve for each of `columns` (l, n) in place, with what LAPACK's `dgbtrf` has left.
-
-    All columns pass the factors together, and where no rows were exchanged, as in most films, the
-    upper factor is as narrow as the matrix: a third of the time of `dgbtrs`. `factors`
-    (n, 3 kl + 1) hold a column of the band in each row.
-    """
-    n, width = factors.shape
-    kl = (width - 1) // 3
-    mid, reach = 2 * kl, kl
-    for j in range(n):
-        below = factors[j, mid + 1 : mid + 1 + min(kl, n - 1 - j)]
-        other = pivots[j]
-        for c in range(columns.shape[0]):
-            column = columns[c]
-            value = column[other]
-            if other != j:
-                reach = mid
-                column[other] = column[j]
-                column[j] = value
-            rest = column[j + 1 : j + 1 + below.size]
-            for i in range(below.size):
-                rest[i] -= value * below[i]
-    for j in range(n - 1, -1, -1):
-        far = min(reach, j)
-        above, pivot = factors[j, mid - far : mid], factors[j, mid]
-        for c in range(columns.shape[0]):
-            value = columns[c, j] / pivot
-            columns[c, j] = value
-            rest = columns[c, j - far : j]
-            for i in range(far):
-                rest[i] -= value * above[i]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
