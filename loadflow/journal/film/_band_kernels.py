@@ -9,13 +9,18 @@ column, so that hardly ever a row is exchanged: the upper factor stays as narrow
 
 from __future__ import annotations
 
-import numpy as np
-from numba import njit
+from functools import partial
 
-from loadflow.numerics.lanes import LANES, lanes_for, larger, magnitude, put, spread, take
-from loadflow.numerics.linked import LINKED
+import numpy as np
+
+from loadflow.numerics.lanes import LANES, lanes_for, larger, largest, magnitude, put, spread, take
+from loadflow.numerics.linked import bare
 
 PANEL = 4  # columns that are eliminated together
+
+# parts that are called at one place are compiled as parts of it
+_plain = partial(bare, fastmath={"contract"})
+_whole, _part = _plain(cache=True), _plain(inline="always")
 
 
 def band_storage(count: int, bandwidth: int) -> np.ndarray:
@@ -31,7 +36,7 @@ def band_storage(count: int, bandwidth: int) -> np.ndarray:
     return room[begin : begin + count * width].reshape(count, width)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+@_whole
 def factorise(factors, kl, pivots):
     """LU of a matrix with `kl` bands on each side in place, with the pivots that `dgbtrf` takes.
 
@@ -40,11 +45,10 @@ def factorise(factors, kl, pivots):
     """
     n, reach, j = factors.shape[0], kl, 0
     length = -(-kl // LANES) * LANES
-    lanes = np.zeros(LANES)
     while j < n:
         done = 0
         if kl >= PANEL and j + PANEL <= n:
-            done, quiet = _panel(factors, kl, pivots, j, length, lanes)
+            done, quiet = _panel(factors, kl, pivots, j, length)
             if not quiet:
                 _pass_on(factors, kl, j, done, reach, length)
             j += done
@@ -56,8 +60,8 @@ def factorise(factors, kl, pivots):
     return 0
 
 
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, **LINKED)
-def _panel(factors, kl, pivots, j, length, lanes):
+@_part
+def _panel(factors, kl, pivots, j, length):
     """Eliminate up to `PANEL` columns from `j` on that need no exchange, among themselves.
 
     Returns how many, and whether none of them has an entry below its pivot.
@@ -68,15 +72,11 @@ def _panel(factors, kl, pivots, j, length, lanes):
         most = magnitude(take(factors, first))
         for i in range(LANES, length, LANES):
             most = larger(most, magnitude(take(factors, first + i)))
-        put(lanes, 0, most)
-        largest = 0.0
-        for i in range(LANES):
-            largest = max(largest, lanes[i])
-        size = abs(factors[j + p, mid])
-        if not (largest <= size and size > 0.0):
+        size, other = abs(factors[j + p, mid]), largest(most)
+        if not (other <= size and size > 0.0):
             return p, quiet
         pivots[j + p] = j + p
-        if largest == 0.0:
+        if other == 0.0:
             continue
         quiet, inverse = False, 1.0 / factors[j + p, mid]
         for i in range(0, length, LANES):
@@ -94,7 +94,7 @@ def _panel(factors, kl, pivots, j, length, lanes):
     return PANEL, quiet
 
 
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, **LINKED)
+@_part
 def _pass_on(factors, kl, j, done, reach, length):
     """Let the columns behind a panel at `j`, of which so many are `done`, follow it."""
     n, width = factors.shape
@@ -129,7 +129,7 @@ def _pass_on(factors, kl, j, done, reach, length):
             put(factors, first + i, row - take(factors, below + 3 * step + i) * s3)
 
 
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, **LINKED)
+@_part
 def _column(factors, kl, pivots, j, reach):
     """Eliminate column `j`, whose pivot may stand in another row.
 
@@ -163,7 +163,7 @@ def _column(factors, kl, pivots, j, reach):
     return reach, True
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
+@_whole
 def substitute(factors, kl, pivots, columns):
     """Solve for each of `columns` (l, n) in place, with what `factorise` has left.
 
@@ -209,7 +209,7 @@ def substitute(factors, kl, pivots, columns):
         j -= 1
 
 
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, **LINKED)
+@_part
 def _lower_panel(factors, kl, j, length, columns):
     """Take what is known from row `j` on of the lower factor to the rows behind a panel."""
     width, mid, n = factors.shape[1], 2 * kl, columns.shape[1]
@@ -232,7 +232,7 @@ def _lower_panel(factors, kl, j, length, columns):
             put(columns, first + i, row - take(factors, below + 3 * step + i) * s3)
 
 
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, **LINKED)
+@_part
 def _upper_panel(factors, kl, j, length, columns):
     """Solve the rows of a panel that ends at `j`, and take them out of those before it."""
     width, mid, n = factors.shape[1], 2 * kl, columns.shape[1]

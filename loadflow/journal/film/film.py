@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 Factors = tuple[Array, int, NDArray[np.int32]]
 """A factorised matrix: its band, the half width of that, and the rows that were exchanged."""
 
-_AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
+AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
 _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 
 EVERY = slice(None)  # all degrees of freedom
@@ -96,6 +96,7 @@ class DiscreteFilm:
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
         self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
+        self.whole: Any = None  # what `rigid_cylinder` has handed over
 
     def driving(self, pressure: Any) -> Any:
         """What drives the flow at a pressure, Pa: it, or less where that thickens the liquid."""
@@ -284,7 +285,7 @@ class DiscreteFilm:
         stiffness = direct.T
         if mesh.polar:
             ratio = math.hypot(*position.tolist())
-            if ratio < _AXIS:
+            if ratio < AXIS:
                 sideways = _TURN @ direct[0]
             else:
                 sideways = (_TURN @ load - damping @ (_TURN @ local)) / ratio
