@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.lanes import LANES, aligned, larger, magnitude, put, spread, take, with_lane
+from loadflow.numerics.lanes import (
+    LANES,
+    aligned,
+    larger,
+    largest,
+    magnitude,
+    put,
+    spread,
+    take,
+    with_lane,
+)
 
 
 @njit
@@ -36,6 +46,19 @@ def test_what_is_no_number_is_not_the_larger_one():
     made = np.zeros(LANES)
     _larger_of(np.full(LANES, np.nan), made)
     np.testing.assert_array_equal(made, 1.0)
+
+
+@njit
+def _largest_of(a):
+    return largest(take(a, 0))
+
+
+def test_the_largest_of_a_row_is_that_of_its_numbers():
+    values = np.random.default_rng(1).normal(size=LANES)
+    for at in range(LANES):
+        assert _largest_of(np.roll(values, at)) == values.max()
+    values[1] = np.nan
+    assert _largest_of(values) == np.nanmax(values)
 
 
 def test_rows_lie_each_in_one_line_of_the_cache():

@@ -47,7 +47,8 @@ def algebra(film: Film, steps: int) -> Callable[[], None]:
     still, gap, band = np.zeros(2), discrete.gap, discrete.mesh.bandwidth
     growth = discrete.storage(gap.coefs[:1], gap.around[None], still, 0.0)
     discrete._assemble(growth[0], 0.0)
-    matrix, work = discrete.ab.copy(), discrete.ab
+    matrix = np.ascontiguousarray(discrete.ab[:, : 3 * band + 1])  # as narrow as LAPACK needs it
+    work = matrix.copy()
     columns = np.random.default_rng(1).random((RIGHT_HAND_SIDES, work.shape[0]))
 
     def run() -> None:

@@ -172,3 +172,17 @@ def larger(typing_context: Any, row: Any, other: Any) -> Any:
         return builder.select(builder.fcmp_ordered(">", args[1], args[0]), args[1], args[0])
 
     return _lanes(_lanes, _lanes), code
+
+
+@intrinsic
+def largest(typing_context: Any, row: Any) -> Any:
+    """Largest number of a `row`; one that is no number counts for none, but in the first lane."""
+
+    def code(context: Any, builder: Any, made: Any, args: Any) -> Any:
+        most = builder.extract_element(args[0], ir.IntType(32)(0))
+        for lane in range(1, LANES):
+            other = builder.extract_element(args[0], ir.IntType(32)(lane))
+            most = builder.select(builder.fcmp_ordered(">", other, most), other, most)
+        return most
+
+    return types.float64(_lanes), code

@@ -17,10 +17,13 @@ along the axis, else one for each row of cells and a last one for the far end.
 from __future__ import annotations
 
 from llvmlite import ir
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
 
 from loadflow.journal.cavitation import DFILL, DP, DSLACK, FILL, SLACK, P
+from loadflow.numerics.linked import bare
+
+_loop = bare(cache=True)
 
 # coefficients of the gap: on the faces around, on the faces across (H3), on cells; CELL3 is ∫H³ of
 # cells, from which the faces across of a gap that changes along the axis follow
@@ -46,7 +49,7 @@ def _call(typing_context, address, numbers, scale, count, u, state):
     return signature, code
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def apply_law(address, numbers, scale, u, state):
     """Fill `state` (8, nx, nz) from the unknowns `u` (nx, nz) by the law at `address`.
 
@@ -55,7 +58,7 @@ def apply_law(address, numbers, scale, u, state):
     _call(address, numbers.ctypes.data, scale, u.size, u.ctypes.data, state.ctypes.data)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def balance(state, coefs, cells, closed, wedge, edges, growth, groove, out):
     """Add the outflow of each cell in some gaps to `out` (≥ l, nx, nz).
 
@@ -105,7 +108,41 @@ def balance(state, coefs, cells, closed, wedge, edges, growth, groove, out):
                     field[i, k + 1] -= q
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
+def largest_terms(state, coef, cells, closed, wedge, edges, mass, fixed):
+    """Largest sum of the magnitudes of the terms of a balance in a cell; held cells have none.
+
+    Arguments are those of `balance`, of one gap, `coef` (8, nx + 1, rows) and `mass` (nx, rows).
+    """
+    _, nx, nz = state.shape
+    dz, area, gz = cells
+    row = 1 if coef.shape[2] > 1 else 0
+    p, largest = state[P], 0.0
+    p_edge, p_line = abs(edges[0]), abs(edges[1])
+    for i in range(nx):
+        left = i - 1 if i > 0 else nx - 1
+        right = i + 1 if i < nx - 1 else 0
+        for k in range(nz):
+            if fixed[i, k]:
+                continue
+            here = abs(p[i, k])
+            before = abs(p[left, k]) if closed or i > 0 else p_line
+            after = abs(p[right, k]) if closed or i < nx - 1 else p_line
+            around = coef[G, i, row * k] * (before + here)
+            around += coef[G, i + 1, row * k] * (here + after)
+            below = abs(p[i, k - 1]) if k > 0 else p_edge
+            above = abs(p[i, k + 1]) if k < nz - 1 else p_edge
+            across = coef[H3, i, row * k] * gz[k] * (below + here)
+            across += coef[H3, i, row * (k + 1)] * gz[k + 1] * (here + above)
+            drag = abs(wedge) * (coef[E, i, row * k] + coef[E, i + 1, row * k])
+            stored = state[FILL, i, k] * abs(mass[i, row * k])
+            total = dz[k] * around + across + area[k] * (drag + stored) + abs(state[SLACK, i, k])
+            if total > largest or total != total:
+                largest = total
+    return largest
+
+
+@_loop
 def right_hand_sides(state, fields, moves, around, across, slope, area, opened, order, fixed, out):
     """Write `fields` (l, nx, nz) in solver order, `out` (l, n); cells that are held have none.
 
@@ -128,17 +165,20 @@ def right_hand_sides(state, fields, moves, around, across, slope, area, opened, 
                 out[0, base + k] += state[SLACK, i, k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, ab):
-    """Band matrix ∂(balance + slack)/∂u in LAPACK's layout, `ab` (n, 3 kl + 1), column by row."""
+@_loop
+def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, kl, ab):
+    """Band matrix ∂(balance + slack)/∂u, `ab` (n, width) as in `_band_kernels`.
+
+    The unknown of a cell that is held is multiplied by as much as its column has elsewhere, so that
+    no rows are exchanged for it.
+    """
     _, nx, nz = state.shape
     dz, area, gz = cells
     row = 1 if coef.shape[2] > 1 else 0
-    kl = (ab.shape[1] - 1) // 3
     mid = 2 * kl
     for at in range(ab.shape[0]):
-        for place in range(kl, ab.shape[1]):
-            ab[at, place] = 0.0  # what lies above is LAPACK's, for pivots
+        for place in range(ab.shape[1]):
+            ab[at, place] = 0.0
     dp = state[DP]
     df = state[DFILL]
     for i in range(nx + 1):
@@ -184,10 +224,13 @@ def jacobian(state, coef, cells, closed, wedge, mass, order, fixed, ab):
                 at = order[i] * nz + k
                 for col in range(max(0, at - kl), min(n, at + kl + 1)):
                     ab[col, mid + at - col] = 0.0
-                ab[at, mid] = 1.0
+                largest = 1.0
+                for place in range(kl, 3 * kl + 1):
+                    largest = max(largest, abs(ab[at, place]))
+                ab[at, mid] = largest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def gather(field, order, column):
     """Write `field` (nx, nz) into `column` (n,) in solver order."""
     nx, nz = field.shape
@@ -196,7 +239,7 @@ def gather(field, order, column):
             column[order[i] * nz + k] = field[i, k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def load_of(load, around, across, dz, out):
     """∫ p N_j over the film, `out` (l, m), of modes N_j = around_j (l, m, nx) · across_j (m, rows).
 
@@ -214,7 +257,7 @@ def load_of(load, around, across, dz, out):
                 out[c, j] += around[c, j, i] * total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def carried_by(slope, around, across, dz, order, columns, out):
     """Change of ∫ p N_j by each of `columns` (l, n) of changes of the unknowns, `out` (l, m)."""
     nx, nz = slope.shape
@@ -230,42 +273,7 @@ def carried_by(slope, around, across, dz, order, columns, out):
                 out[c, j] += around[j, i] * total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
-def substitute(factors, pivots, columns):
-    """Solve for each of `columns` (l, n) in place, with what LAPACK's `dgbtrf` has left.
-
-    All columns pass the factors together, and where no rows were exchanged, as in most films, the
-    upper factor is as narrow as the matrix: a third of the time of `dgbtrs`. `factors`
-    (n, 3 kl + 1) hold a column of the band in each row.
-    """
-    n, width = factors.shape
-    kl = (width - 1) // 3
-    mid, reach = 2 * kl, kl
-    for j in range(n):
-        below = factors[j, mid + 1 : mid + 1 + min(kl, n - 1 - j)]
-        other = pivots[j]
-        for c in range(columns.shape[0]):
-            column = columns[c]
-            value = column[other]
-            if other != j:
-                reach = mid
-                column[other] = column[j]
-                column[j] = value
-            rest = column[j + 1 : j + 1 + below.size]
-            for i in range(below.size):
-                rest[i] -= value * below[i]
-    for j in range(n - 1, -1, -1):
-        far = min(reach, j)
-        above, pivot = factors[j, mid - far : mid], factors[j, mid]
-        for c in range(columns.shape[0]):
-            value = columns[c, j] / pivot
-            columns[c, j] = value
-            rest = columns[c, j - far : j]
-            for i in range(far):
-                rest[i] -= value * above[i]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
+@_loop
 def correct(u, columns, weights, order):
     """Subtract Σ weights · columns from `u`; returns the largest change."""
     nx, nz = u.shape

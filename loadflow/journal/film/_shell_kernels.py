@@ -148,10 +148,10 @@ def gap_stencil(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def add_stencil(stencil, growth, order, fixed, ab):
+def add_stencil(stencil, growth, order, fixed, kl, ab):
     """Add what follows from the `growth` (nx, nz) of each gap by its own unknown to the band."""
     _, nx, nz = stencil.shape
-    mid = 2 * ((ab.shape[1] - 1) // 3)
+    mid = 2 * kl
     for i in range(nx):
         for k in range(nz):
             column = order[i] * nz + k

@@ -17,7 +17,7 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.asperity_load import YieldingNodeLoad
 from loadflow.journal.film.compliance import Compliance
-from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.film import DiscreteFilm, Factors
 from loadflow.journal.film.gap_elastic import ElasticGap
 
 Array = NDArray[np.float64]
@@ -156,9 +156,11 @@ class ElasticFilm(DiscreteFilm):
             self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
-        shell_kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, self.ab)
+        shell_kernel.add_stencil(
+            self.stencil, growth, mesh.order, self.fixed, mesh.bandwidth, self.ab
+        )
 
-    def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
+    def _solve(self, factors: Factors, columns: Array) -> None:
         """Solve for each of `columns` (l, n), in place.
 
         Where the shell spreads by GMRES, preconditioned with the band; where that stalls, because
@@ -188,9 +190,7 @@ class ElasticFilm(DiscreteFilm):
         else:
             columns[:] = found.reshape(columns.shape) * sizes
 
-    def _add_shell_squeeze(
-        self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
-    ) -> None:
+    def _add_shell_squeeze(self, factors: Factors, columns: Array, size: int) -> None:
         """Let the derivatives by velocity have the squeeze of the shell that follows the shaft."""
         by_place, by_velocity = columns[1 : size + 1], columns[size + 1 : 2 * size + 1]
         pressure = -self.state[DLOAD] * self._fields(by_place)

@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg.lapack import dgbtrf
 
 from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, CavitationLaw, P
+from loadflow.journal.film import _band_kernels as band_kernel
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.asperity_load import AsperityLoad
@@ -20,8 +20,10 @@ from loadflow.journal.film.thickening import Thickening
 from loadflow.journal.turbulence import Regime
 
 Array = NDArray[np.float64]
+Factors = tuple[Array, int, NDArray[np.int32]]
+"""A factorised matrix: its band, the half width of that, and the rows that were exchanged."""
 
-_AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
+AXIS = 1e-8  # eccentricity ratio below which a film that turns with the shaft is linear in it
 _CELLS = 0.6  # of the width of the narrowest gap, the widest cell around that resolves it
 
 EVERY = slice(None)  # all degrees of freedom
@@ -85,7 +87,7 @@ class DiscreteFilm:
 
         nx, nz = mesh.shape
         n = nx * nz
-        self.ab = np.empty((n, 3 * mesh.bandwidth + 1))
+        self.ab = band_kernel.band_storage(n, mesh.bandwidth)
         self._still = np.zeros((len(gap.coefs), nx, gap.across.shape[1]))  # growth at rest
         self.state = np.empty((8, nx, nz))
         self.elastic = False  # whether the gap follows the pressure
@@ -94,6 +96,7 @@ class DiscreteFilm:
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
         self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
+        self.whole: Any = None  # what `rigid_cylinder` has handed over
 
     def driving(self, pressure: Any) -> Any:
         """What drives the flow at a pressure, Pa: it, or less where that thickens the liquid."""
@@ -259,13 +262,15 @@ class DiscreteFilm:
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
-        band = mesh.bandwidth
-        _, pivots, info = dgbtrf(self.ab.T, band, band, overwrite_ab=1)
-        if info:
-            raise SingularFilm(f"film matrix is singular in row {info} at eccentricity {position}")
-        self._solve((self.ab, pivots), columns)
+            column *= self.ab[:, 2 * mesh.bandwidth]  # by what `jacobian` has held the cells
+        factors = self.ab, mesh.bandwidth, np.empty(len(self.ab), dtype=np.int32)
+        singular = band_kernel.factorise(*factors)
+        if singular:
+            why = f"film matrix is singular in row {singular} at eccentricity {position}"
+            raise SingularFilm(why)
+        self._solve(factors, columns)
         if damped:
-            self._add_shell_squeeze((self.ab, pivots), columns, gap.size)
+            self._add_shell_squeeze(factors, columns, gap.size)
         if free.size:
             columns = self._freed(columns, np.array(flows), growth[0])
 
@@ -280,7 +285,7 @@ class DiscreteFilm:
         stiffness = direct.T
         if mesh.polar:
             ratio = math.hypot(*position.tolist())
-            if ratio < _AXIS:
+            if ratio < AXIS:
                 sideways = _TURN @ direct[0]
             else:
                 sideways = (_TURN @ load - damping @ (_TURN @ local)) / ratio
@@ -296,16 +301,14 @@ class DiscreteFilm:
         mesh = self.mesh
         kernel.jacobian(
             self.state, self.gap.coef, mesh.cells, mesh.closed, self.wedge,
-            mass, mesh.order, self.fixed, self.ab,
+            mass, mesh.order, self.fixed, mesh.bandwidth, self.ab,
         )  # fmt: skip
 
-    def _solve(self, factors: tuple[Array, NDArray[np.int32]], columns: Array) -> None:
+    def _solve(self, factors: Factors, columns: Array) -> None:
         """Solve the Newton matrix for each of `columns` (l, n), in place."""
-        kernel.substitute(*factors, columns)
+        band_kernel.substitute(*factors, columns)
 
-    def _add_shell_squeeze(
-        self, factors: tuple[Array, NDArray[np.int32]], columns: Array, size: int
-    ) -> None:
+    def _add_shell_squeeze(self, factors: Factors, columns: Array, size: int) -> None:
         """Let the derivatives by velocity know what else moves with the shaft: nothing, if rigid.
 
         After the Newton step, `columns` hold `size` derivatives by position and `size` by velocity.

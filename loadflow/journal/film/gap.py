@@ -17,7 +17,6 @@ from loadflow.journal.film import _gap_kernels as kernel
 from loadflow.journal.film._kernels import COS, SIN
 from loadflow.journal.film.mesh import Mesh
 from loadflow.journal.turbulence import RegimeNumbers
-from loadflow.numerics.convergence import EPS
 
 Array = NDArray[np.float64]
 
@@ -176,66 +175,44 @@ class CylindricalGap(FlowBetween):
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
         shape, moves = (8, mesh.angle.size + 1, 1), 1 if mesh.polar else 2
-        self.coefs, self._beside = np.zeros((1 + moves, *shape)), np.zeros((2 * moves, *shape))
-        self.coef, self._slopes = self.coefs[0], self.coefs[1:]
-        self._modes = self.coefs[:, COS : SIN + 1, :-1, 0]
+        self.coefs = np.zeros((1 + moves, *shape))
+        self.coef = self.coefs[0]
+        # places beside that of the shaft, and the gap there
+        self.beside = np.zeros((2 * moves, 2)), np.zeros((2 * moves, *shape))
         self.across = np.ones((2, 1))
         self.dof_scale = np.ones(2)
 
     @property
     def around(self) -> Array:
         """Cosine and sine, integrated over the cells around (2, nx)."""
-        return self._modes[0].copy()
+        return self.coef[COS : SIN + 1, :-1, 0].copy()
 
     def place(self, position: Array) -> Array:
         """Evaluate `coef` at `position`; returns the axes of the frame of the mesh (2, 2)."""
-        if not self.mesh.polar:
-            self._evaluate(self.coefs, position[None])
-            return _SHELL
-        self._evaluate(self.coefs, np.array([[math.hypot(*position.tolist()), 0.0]]))
-        return turning_frame(position)
-
-    def _evaluate(self, out: Array, places: Array) -> None:
-        face, cell = self.mesh.trigonometry
-        strength = self.mesh.strength
-        kernel.gap_coefficients(face, cell, strength, places, self.surfaces, out, self.open_share)
+        (face, cell), mesh = self.mesh.trigonometry, self.mesh
+        place = np.array([[math.hypot(*position.tolist()), 0.0]]) if mesh.polar else position[None]
+        words = mesh.strength, place, self.surfaces, self.coefs, self.open_share
+        kernel.gap_coefficients(face, cell, *words)
+        return turning_frame(position) if mesh.polar else _SHELL
 
     def slopes(self, position: Array) -> Array:
-        """Fill the derivatives in `coefs`; returns the modes and theirs (1 + s, 2, nx).
-
-        Central differences of closed forms: the relative error is below 1e-7 for gaps above 1e-5;
-        the step is the one at which what it leaves out and what rounding adds are alike.
-        """
+        """Fill the derivatives in `coefs`; returns the modes and theirs (1 + s, 2, nx)."""
+        (face, cell), mesh = self.mesh.trigonometry, self.mesh
         x, y = position.tolist()
-        ratio = math.hypot(x, y)
-        gap = max(1.0 - ratio, self.roughness)
-        step = gap * max(1e-5, min((EPS / max(gap, EPS)) ** (1 / 3), 0.1))
-        if self.mesh.polar:
-            beside = [[ratio + step, 0.0], [ratio - step, 0.0]]
-        else:
-            beside = [[x + step, y], [x - step, y], [x, y + step], [x, y - step]]
-        self._evaluate(self._beside, np.array(beside))
-        np.subtract(self._beside[::2], self._beside[1::2], out=self._slopes)
-        self._slopes /= 2.0 * step
-        return self._modes.copy()
+        modes = np.empty((len(self.coefs), 2, mesh.angle.size))
+        kernel.cylinder_slopes(
+            face, cell, mesh.strength, mesh.polar, self.roughness, x, y, self.surfaces,
+            *self.beside, self.coefs, self.open_share, modes,
+        )  # fmt: skip
+        return modes
 
     def advance(self, position: Array, step: Array) -> Array:
         """Position after `step`, of which the narrowest gap keeps at least a third of its height.
 
         An eccentric shaft goes along the gap, not along the chord.
         """
-        x, y = position.tolist()
-        dx, dy = step.tolist()
-        ratio = math.hypot(x, y)
-        limit = self.farthest(ratio)
-        if ratio < 0.5:
-            length = math.hypot(x + dx, y + dy)
-            share = min(1.0, limit / length) if length > 0 else 1.0
-            return np.array([share * (x + dx), share * (y + dy)])
-        radial = (x * dx + y * dy) / ratio
-        turn = math.atan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
-        length = max(0.3, min(limit, ratio + radial))
-        return np.array([length * math.cos(turn), length * math.sin(turn)])
+        (x, y), (dx, dy) = position.tolist(), step.tolist()
+        return np.array(kernel.along_the_gap(x, y, dx, dy, self.farthest(math.hypot(x, y))))
 
     def farthest(self, ratio: float) -> float:
         """Eccentricity ratio up to which a step may lead from `ratio`."""

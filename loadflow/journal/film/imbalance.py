@@ -7,8 +7,8 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import FILL, LOAD, SLACK, P
-from loadflow.journal.film._kernels import H3, E, G
+from loadflow.journal.cavitation import LOAD
+from loadflow.journal.film._kernels import largest_terms
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.numerics.convergence import EPS, rounding_level
 
@@ -58,7 +58,9 @@ def rounding(
     """
     mesh, gap = film.mesh, film.gap
     mass = film.storage(gap.coefs[:1], gap.around[None], velocity, 0.0)[0]
-    terms = _largest_terms(film, mass)
+    terms = largest_terms(
+        film.state, gap.coef, mesh.cells, mesh.closed, film.wedge, film.edges, mass, film.fixed
+    )
     narrow = min(max(gap.narrowest(position), EPS), 1.0)
     worst = terms * (1.0 + 3.0 / narrow) / _flux(film)
     if force is not None and slope is not None:
@@ -74,20 +76,3 @@ def rounding(
 def _flux(film: DiscreteFilm) -> float:
     """Scale of what flows through a cell."""
     return float((abs(film.wedge) + film.scale) * film.mesh.area.max())
-
-
-@np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
-def _largest_terms(film: DiscreteFilm, mass: Array) -> float:
-    """Largest sum of the magnitudes of the terms of a balance in a cell; grooves have none."""
-    mesh, coef, cells = film.mesh, film.gap.coef, film.mesh.z.size
-    pressure = np.abs(film.state[P])
-    lines = pressure[[-1, 0]] if mesh.closed else np.full((2, cells), abs(film.edges[1]))
-    beside = np.concatenate([lines[:1], pressure, lines[1:]])
-    edges = np.full((len(pressure), 1), abs(film.edges[0]))
-    above = np.concatenate([edges, pressure, edges], axis=1)
-    through = coef[G, :, :cells] * (beside[:-1] + beside[1:])
-    across = coef[H3, :-1] * mesh.gz * (above[:, :-1] + above[:, 1:])
-    drag = abs(film.wedge) * (coef[E, :-1, :cells] + coef[E, 1:, :cells])
-    total = mesh.dz * (through[:-1] + through[1:]) + across[:, :-1] + across[:, 1:]
-    total += mesh.area * (drag + film.state[FILL] * np.abs(mass)) + np.abs(film.state[SLACK])
-    return float(np.max(total, where=~film.fixed, initial=0.0))

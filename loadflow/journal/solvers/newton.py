@@ -14,15 +14,19 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.imbalance import imbalance, rounding
 from loadflow.journal.film.linearised import Linear, SingularFilm
+from loadflow.journal.film.rigid_cylinder import Cylinder, as_cylinder
+from loadflow.journal.solvers import _newton_kernels as kernel
+from loadflow.journal.solvers._newton_kernels import (
+    LATE,
+    NEARLY,
+    PRESSED,
+    QUADRATIC,
+    STEP_LIMIT,
+)
 from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
 Array = NDArray[np.float64]
 
-_QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last factors are exact
-_STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
-_NEARLY = 1e-3  # a step this small is followed by the last ones, whose damping is kept
-_LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
-_PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 _HELD = 1e-5  # share of it that pads must be let go, where they would tilt the other way
 _STILL = 1e-13  # Newton step, clearances, that rounding makes: it need not lead anywhere
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
@@ -118,17 +122,17 @@ class _Check:
         self, iteration: int, change: float, u: Array, position: Array, linear: Linear
     ) -> bool:
         """Whether Newton step number `iteration`, of the length `change`, has led to an answer."""
-        if not change < (_QUADRATIC if iteration <= _LATE else COARSEST**0.5):
+        if not change < (QUADRATIC if iteration <= LATE else COARSEST**0.5):
             return False
         before, finest = self.residual, 0.0
         self.weigh(u, position)
-        if self.residual <= self.tolerance and change < _QUADRATIC:
+        if self.residual <= self.tolerance and change < QUADRATIC:
             return True  # whatever rounding allows
         self.round(position, linear)
-        if change >= _QUADRATIC:
+        if change >= QUADRATIC:
             finest = self._finest(u, position, linear)
         level = (self.tolerance, min(self.rounding, COARSEST))
-        return answered(self.residual, *level, before, change, _QUADRATIC, finest)
+        return answered(self.residual, *level, before, change, QUADRATIC, finest)
 
     def _finest(self, u: Array, position: Array, linear: Linear) -> float:
         """Step of film and shaft that the last digits of unknowns and gap make."""
@@ -136,7 +140,7 @@ class _Check:
             np.abs(linear.columns[1 : 1 + self.film.moves]).sum(axis=0).max(initial=0.0)
             + np.abs(u).max()
         )
-        narrow = max(self.film.gap.narrowest(position), _PRESSED)
+        narrow = max(self.film.gap.narrowest(position), PRESSED)
         return rounding_level(float(terms) / self.film.scale + 1.0 / narrow)
 
     def solution(
@@ -197,8 +201,11 @@ def solve_film(
     max_iterations: int,
 ) -> Solution:
     """Pressure of the film at a given position and velocity."""
-    u = u.copy()
-    weights, motion = np.ones(1), Motion(offset=-velocity)
+    u, motion = u.copy(), Motion(offset=-velocity)
+    whole = as_cylinder(film)
+    if whole is not None:
+        return _at_once(film, whole, None, u, position, tolerance, max_iterations, motion)
+    weights = np.ones(1)
     check = _Check(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
@@ -234,7 +241,9 @@ def solve_equilibrium(
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
     """
-    u = u.copy()
+    u, whole = u.copy(), as_cylinder(film)
+    if whole is not None and free is EVERY:
+        return _at_once(film, whole, force, u, position, tolerance, max_iterations, motion)
     scale, gap = film.gap.dof_scale[free], film.gap.narrowest(position)
     pads = film.gap.pads.size > 0
     old = (motion.volume_rate, motion.volume)
@@ -242,7 +251,7 @@ def solve_equilibrium(
     pressing = 0
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
-        damped = moving or change < _NEARLY
+        damped = moving or change < NEARLY
         try:
             linear = film.linearise(u, position, velocity, *old, damped=damped)
         except SingularFilm:
@@ -250,7 +259,7 @@ def solve_equilibrium(
                 return no_film(film)
             break
         slope = linear.stiffness + motion.rate * linear.damping
-        excess = film.size(linear.columns[0]) / _STEP_LIMIT
+        excess = film.size(linear.columns[0]) / STEP_LIMIT
         step, missing = np.zeros(position.size), force - linear.load
         step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
@@ -260,15 +269,42 @@ def solve_equilibrium(
         pressing = pressing + 1 if film.contact and way < _STUCK * length else 0
         if share < _STUCK or stuck or pressing > _PRESSING or not math.isfinite(way):
             break
-        change = max(film.correct(u, linear.columns, weights), way / max(gap, _PRESSED))
+        change = max(film.correct(u, linear.columns, weights), way / max(gap, PRESSED))
         position, gap = target, film.gap.narrowest(target)
-        if not gap > _PRESSED and not film.elastic:
+        if not gap > PRESSED and not film.elastic:
             break
         if check.after(iteration, change, u, position, linear):
             if not damped:
                 linear = film.linearise(u, position, velocity, *old)
             return check.solution(u, position, linear, True, iteration)
     return check.unanswered(u, position, linear, iteration)
+
+
+def _at_once(
+    film: DiscreteFilm,
+    whole: Cylinder,
+    force: Array | None,
+    u: Array,
+    position: Array,
+    tolerance: float,
+    most: int,
+    motion: Motion,
+) -> Solution:
+    """The answer of the compiled loop; the shaft is held where there is no `force`."""
+    place = np.array(position, dtype=float)
+    load = np.zeros(2) if force is None else np.array(force, dtype=float)
+    offset = np.zeros(2) if isinstance(motion.offset, float) else motion.offset
+    volume = np.asarray(motion.volume) if motion.volume_rate else film.given
+    ended, iterations, residual, allowed, last, count = kernel.solve(
+        whole, u, place, load, force is not None, film.load_scale(load),
+        (motion.rate, offset, motion.moves), (motion.volume_rate, volume), tolerance, most,
+    )  # fmt: skip
+    if ended == kernel.NONE:
+        return no_film(film)
+    out = whole.found[0].copy()
+    linear = Linear(out[0], out[1:3], out[3:5], whole.columns[last, :count].copy())
+    found = ended == kernel.ANSWERED, iterations, residual
+    return Solution(u, place, linear, *found, rounding=allowed)
 
 
 def _moved(
