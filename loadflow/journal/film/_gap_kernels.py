@@ -22,11 +22,12 @@ from loadflow.journal.film._rough_kernels import (
     sheared,
 )
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
+from loadflow.numerics.linked import LINKED
 
 FLATTEST = 0.99  # stretch of the Sommerfeld map, which ends at 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def resistance(h, w, surfaces):
     """Terms w·H⁻² and w·H⁻³ of a node of a face, and their derivatives by h."""
     if surfaces is None:
@@ -37,7 +38,7 @@ def resistance(h, w, surfaces):
     return _resistance(h, w, surfaces[0], surfaces[1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _resistance(h, w, rough, regime):
     """`resistance` of rough surfaces, of turbulent flow, or of both."""
     opens = 1.0
@@ -56,14 +57,14 @@ def _resistance(h, w, rough, regime):
     return w3 * drag, w3, d3 * drag + w3 * drag_rise * opens, d3
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _slowed(flow, rise, h, regime, way):
     """Conductance of turbulent flow and its derivative, of those of laminar flow."""
     more, more_rise = factor(h, regime, way)
     return flow / more, (rise - flow * more_rise / more) / more
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def cell_terms(h, w, surfaces):
     """Of a node of a cell w·H³ and its derivative, w·H and its derivative, w/H; share of open gap.
 
@@ -74,7 +75,7 @@ def cell_terms(h, w, surfaces):
     return _cell_terms(h, w, surfaces[0], surfaces[1])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _cell_terms(h, w, rough, regime):
     """`cell_terms` of rough surfaces, of turbulent flow, or of both."""
     opens = 1.0
