@@ -12,7 +12,7 @@ from loadflow.cli import main
 from loadflow.cli.lists import LISTS
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict, switched
-from loadflow.planning.pilot import EFFORTS, effort_for, hardest, pilot
+from loadflow.planning.pilot import EFFORTS, Questions, effort_for, hardest, measure, pilot
 from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
@@ -82,6 +82,24 @@ def check_toy_effect(cube, monkeypatch):
     measured = make_plan(scene_of(cube, **wanted), verdict=verdict)
     assert effect_in(measured, "odd seed").size == {"largest load": pytest.approx(0.01)}
     assert measured.accurate
+
+
+def test_an_effect_that_series_can_mute_is_never_asked_to_be_out(cube, monkeypatch, request):
+    asked = []
+
+    def answers(scene, case, inputs):
+        asked.append(TOY.is_on(scene))
+        return {("N", "largest load"): inputs.get("toy", 1.0)}
+
+    muted = replace(TOY, muted=lambda scene: lambda given: {**given, "toy": 0.98})
+    EFFECTS.append(muted)
+    request.addfinalizer(lambda: EFFECTS.remove(muted))
+    monkeypatch.setitem(PROBES, "reduction", Probe((), answers))
+    scene = scene_of(cube, results=["reduction.histogram"], reduction={"seed": 1})
+    questions = Questions(scene, ("odd seed",), 60.0, ())
+    found = measure(questions, list_cases(scene)[0])
+    assert found.sizes["odd seed"] == {"largest load": pytest.approx(0.02)}
+    assert asked == [True, True]
 
 
 def test_a_toy_stage_with_a_toy_rung_runs_by_one_row(cube, tmp_path, request):

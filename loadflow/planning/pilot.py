@@ -24,7 +24,7 @@ from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
-from loadflow.stages.probes import PROBES, Answers, hardest
+from loadflow.stages.probes import PROBES, Answers, Probe, hardest
 from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import with_settings
 
@@ -271,8 +271,7 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             if partner is None:
                 continue
             with_it = best if partner is scene else _try(answers, partner)
-            without = switched(partner, effect, False)
-            left = _try(answers, without) if without is not None else "no such scene"
+            left = _without(probe, effect, partner, case, inputs)
             if isinstance(with_it, str):
                 refused[effect.name] = with_it
             elif not isinstance(left, str):
@@ -325,6 +324,18 @@ def _alone(scene: Scene, effect: Effect, others: list[Effect]) -> Scene | None:
         if found is not None:
             return found
     return None
+
+
+def _without(
+    probe: Probe, effect: Effect, scene: Scene, case: Case, inputs: Mapping[str, Any]
+) -> Answers | str:
+    """What a probe answers without an effect that is on in the scene."""
+    if (mute := effect.muted(scene)) is not None:
+        return _try(lambda one: probe.answers(one, case, mute(inputs)), scene)
+    without = switched(scene, effect, False)
+    if without is None:
+        return "no such scene"
+    return _try(lambda one: probe.answers(one, case, inputs), without)
 
 
 def _try(answers: Callable[[Scene], Answers], scene: Scene) -> Answers | str:

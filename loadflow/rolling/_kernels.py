@@ -26,9 +26,9 @@ from loadflow.rolling.contacts import (
     STIFFNESS,
 )
 
-rounding_level = njit(cache=True, nogil=True)(convergence.rounding_level)
-is_small = njit(cache=True, nogil=True)(convergence.is_small)
-stalled = njit(cache=True, nogil=True)(convergence.stalled)
+rounding_level = njit(nogil=True, **LINKED)(convergence.rounding_level)
+is_small = njit(nogil=True, **LINKED)(convergence.is_small)
+stalled = njit(nogil=True, **LINKED)(convergence.stalled)
 
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics. Loops
@@ -214,7 +214,7 @@ def evaluate(q, cos, sin, spans, table, law, spatial, gradient, hessian):
     return energy, total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def cholesky_solve(matrix, shift, rhs, factor, out):
     """Solve (matrix + shift·1) out = rhs for a 5 × 5 matrix.
 

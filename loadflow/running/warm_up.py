@@ -4,7 +4,7 @@ every process at once.
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
 are called. So the questions of the pilot are asked of a load case in miniature first: one process
 simulates the first load case of the run, while another takes made-up loads through films, and the
-first that is free through simpler films, whose loops are others, through contacts, or through
+first that is free through contacts, through simpler films, if their loops are others, or through
 stages that no question is about. The plan's own stages follow in the same way. What is compiled
 there, all workers then load. Marks beside numba's files tell the next run that this is done.
 """
@@ -106,8 +106,13 @@ def compile_for_pilot(
 
 
 def without_own_kernels(questions: Questions, model: str) -> Questions | None:
-    """Questions about a model without the effects that have kernels of their own, if it has any."""
+    """Questions about a model without the effects that have kernels of their own, if it has any.
+
+    None where one of these is never asked to be out, but to have no size.
+    """
     ours = [one for one in EFFECTS if one.model == model and one.name in questions.effects]
+    if any(one.muted(switched(questions.scene, one, True) or questions.scene) for one in ours):
+        return None
     asked = tuple(one.name for one in ours if not one.own_kernels)
     scene = questions.scene
     for effect in ours:
@@ -174,13 +179,13 @@ def _compile(
 ) -> None:
     """Have all jobs done, and mark that they are.
 
-    The loads begin, so that a case of the run has its loads soon; then the longest job comes first,
-    what is simpler of a model right after it.
+    The loads begin, so that a case of the run has its loads soon; then the longest job comes first.
+    So contacts are done before the other stages, which solve them, too, and compile nothing twice.
     """
     seconds = {job: SECONDS.get(job, QUICK) for job in jobs}
 
     def rank(job: str) -> tuple[bool, float, str]:
-        return job != "loads", -SECONDS.get(job.removesuffix(SIMPLER), QUICK), job
+        return job != "loads", -seconds[job], job
 
     in_order = sorted(jobs, key=rank)
     left = times_left([seconds[job] for job in in_order], where.workers)

@@ -70,6 +70,16 @@ def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
     return lying
 
 
+def aligned(options: Journal, bearing: xr.Dataset) -> xr.Dataset:
+    """Series of loads in which a shaft with `tilt` lies straight along its bore."""
+    held = from_film(np.array(options.alignment))
+    series = bearing.assign(moment=0.0 * bearing["moment"])
+    if "tilt" in bearing:
+        still = xr.zeros_like(bearing["tilt"]) + xr.DataArray(held, dims="axis")
+        series = series.assign(tilt=still, curvature=xr.zeros_like(bearing["curvature"]))
+    return series
+
+
 def equilibria(
     options: Journal,
     force: np.ndarray,

@@ -14,6 +14,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from loadflow.numerics.linked import LINKED
 from loadflow.tribology._contact_integral import HIGHEST, LOWEST, PER_UNIT, polynomials
 from loadflow.tribology._flow_coefficients import COEFFICIENTS, PATTERNS
 
@@ -200,7 +201,7 @@ def inverse_gap(film_parameter: float) -> Pair:
     return 35.0 / 96.0 * value, 35.0 / 288.0 * rise
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def _friction_series(film_parameter: float) -> Pair:
     """Moments of the heights for H > 6, where the closed form loses digits: φ_f and slope."""
     inverse_square = (3.0 / film_parameter) ** 2
@@ -260,14 +261,14 @@ def area_integral(film_parameter: float) -> Pair:
     return max((1.0 + u * u) * above - u * bell, 0.0), min(2.0 * (u * above - bell), 0.0)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def _power_exponential(at: float, scale: float, power: float, fall: float, square: float) -> Pair:
     """A H^a exp(-b H + c H²) and its derivative."""
     value = scale * at**power * math.exp(at * (square * at - fall))
     return value, value * (power / at - fall + 2.0 * square * at)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def _share(at: float, centre: float, half: float) -> Pair:
     """Share of the law above `centre`, 0 to 1 with two continuous derivatives, and its slope."""
     if at <= centre - half:

@@ -10,7 +10,7 @@ from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import journal as stage
 from loadflow.stages.effects import film
-from loadflow.stages.film_of_bearing import follow
+from loadflow.stages.film_of_bearing import aligned, follow
 from loadflow.stages.journal import fast_film
 
 TIME = np.arange(0.0, 1.0, 0.05)
@@ -49,6 +49,18 @@ def test_without_a_beam_the_shaft_tilts_freely_under_its_moment():
     journal = make_scene({"journal": MOVING | {"tilt": True}}).journal
     path = follow(journal, loads(), reactions(tilt=np.nan * TILT))
     np.testing.assert_allclose(path.moment, 0.01 * in_film(FORCE), rtol=1e-3, atol=20.0)
+
+
+@pytest.mark.parametrize("tilt", [TILT, np.nan * TILT])
+def test_a_shaft_that_may_tilt_and_lies_aligned_has_the_film_without_tilt(tilt):
+    """So a pilot asks what tilt changes with the loops of one film alone."""
+    journal = make_scene({"journal": MOVING | {"tilt": True}}).journal
+    journal = journal.model_copy(update={"alignment": (1e-4, -2e-4)})
+    still = follow(journal, loads(), aligned(journal, reactions(tilt)))
+    without = follow(journal.model_copy(update={"tilt": False}), loads(), reactions(tilt))
+    assert np.abs(still.tilt).max() < 1e-12
+    for name in ("minimum_film", "maximum_pressure", "friction_power"):
+        np.testing.assert_allclose(still[name], without[name], rtol=2e-5)
 
 
 @pytest.mark.parametrize("rung", ["reduced", "grid"])

@@ -92,6 +92,15 @@ def test_a_model_with_loops_for_some_effects_is_two_jobs(plan):
     assert without_own_kernels(simpler, "journal") is None  # there is no simpler one
 
 
+def test_a_film_that_is_asked_to_lie_aligned_is_one_job(plan):
+    """On "reduced" the loops of a shaft that tilts answer all that is asked of it."""
+    words = {"tilt": True, "rung": "reduced"}
+    tilted = plan.scene.journal.model_copy(update=words)
+    scene = plan.scene.model_copy(update={"journal": tilted})
+    effects = ("motion of the film", "tilt of the shaft")
+    assert without_own_kernels(Questions(scene, effects, 60.0, plan.cases[:1]), "journal") is None
+
+
 def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):
     where = TwoWorkers()
     where.workers = 1

@@ -22,15 +22,16 @@ from loadflow.journal.film._rough_kernels import (
 )
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, SHEAR, factor
 from loadflow.numerics.convergence import EPS
-from loadflow.numerics.linked import bare
+from loadflow.numerics.linked import LINKED, bare
 
 _loop = bare(cache=True)
+_linked = bare(**LINKED)
 
 FLATTEST = 0.99  # stretch of the Sommerfeld map, which ends at 1
 _STEP, _WIDEST = 1e-5, 0.1  # least and largest step of differences, over the gap
 
 
-@_loop
+@_linked
 def resistance(h, w, surfaces):
     """Terms w·H⁻² and w·H⁻³ of a node of a face, and their derivatives by h."""
     if surfaces is None:
@@ -41,7 +42,7 @@ def resistance(h, w, surfaces):
     return _resistance(h, w, surfaces[0], surfaces[1])
 
 
-@_loop
+@_linked
 def _resistance(h, w, rough, regime):
     """`resistance` of rough surfaces, of turbulent flow, or of both."""
     opens = 1.0
@@ -60,14 +61,14 @@ def _resistance(h, w, rough, regime):
     return w3 * drag, w3, d3 * drag + w3 * drag_rise * opens, d3
 
 
-@_loop
+@_linked
 def _slowed(flow, rise, h, regime, way):
     """Conductance of turbulent flow and its derivative, of those of laminar flow."""
     more, more_rise = factor(h, regime, way)
     return flow / more, (rise - flow * more_rise / more) / more
 
 
-@_loop
+@_linked
 def cell_terms(h, w, surfaces):
     """Of a node of a cell w·H³ and its derivative, w·H and its derivative, w/H; share of open gap.
 
@@ -78,7 +79,7 @@ def cell_terms(h, w, surfaces):
     return _cell_terms(h, w, surfaces[0], surfaces[1])
 
 
-@_loop
+@_linked
 def _cell_terms(h, w, rough, regime):
     """`cell_terms` of rough surfaces, of turbulent flow, or of both."""
     opens = 1.0

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
 from loadflow.tribology import kernels as laws
 
 LEAST = 1e-3  # mean gap over the roughness: valleys stay open under any load
@@ -60,7 +61,7 @@ def mean_film(h, s):
     return s * mean, share
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def conductance(h, s, mean, share, rows):
     """φ h³, or ⟨h_T⟩³ without `rows`, and its derivative; mean gap and its derivative are given.
 
@@ -77,7 +78,7 @@ def conductance(h, s, mean, share, rows):
     return ratio * factor * mean**3, ratio * (3.0 * factor * mean**2 * share + rise / s * mean**3)
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def dragged(h, s, mean, share, rows, slip):
     """Gap that the shaft drags full, ⟨h_T⟩ + slip σ Φ_s, and its derivative; as `conductance`."""
     if rows.shape[0] == 0 or slip == 0.0:
@@ -86,7 +87,7 @@ def dragged(h, s, mean, share, rows, slip):
     return mean + slip * s * factor, share + slip * rise
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def sheared(h, s, rows):
     """Mean inverse of the gap: φ_f/h with flow factors, 1/⟨h_T⟩ without."""
     if rows.shape[0] == 0:

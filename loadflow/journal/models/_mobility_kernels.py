@@ -20,9 +20,10 @@ import numpy as np
 from numba import njit
 
 from loadflow.numerics import convergence
+from loadflow.numerics.linked import LINKED
 
-is_small = njit(cache=True, nogil=True)(convergence.is_small)
-stalled = njit(cache=True, nogil=True)(convergence.stalled)
+is_small = njit(nogil=True, **LINKED)(convergence.is_small)
+stalled = njit(nogil=True, **LINKED)(convergence.stalled)
 _FINEST = convergence.rounding_level(1.0)
 
 # entries of `axes`: steps of ξ, χ, y; the scale s1; the largest ξ and s

@@ -18,6 +18,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.heat import HOTTEST, Heat
+from loadflow.numerics.linked import LINKED
 
 Array = NDArray[np.float64]
 
@@ -150,7 +151,7 @@ def _warmth_of(heat: Heat, viscosity: float, flow: float, drag: float, rub: floa
     )  # fmt: skip
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def slow_heat(warmth, states, n, step, speed, rows, first, normal):
     """Temperature at time `n`, a `step` (s) after the last; returns viscosity over the film's.
 
@@ -184,13 +185,13 @@ def slow_heat(warmth, states, n, step, speed, rows, first, normal):
     return states[n, THIN]
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def lighter(warmth, states, n):
     """Density of the oil at time `n` over that of the film."""
     return warmth.light * _at(warmth, 1, states[n, TEMPERATURE])
 
 
-@njit(cache=True, nogil=True)
+@njit(nogil=True, **LINKED)
 def _at(warmth, row, temperature):
     """Value of the table at a temperature, held at its ends; exponentials between its points."""
     place = (temperature - warmth.coldest) / _TABLE

@@ -7,10 +7,12 @@ import math
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
+
 _GLIDING, _GRIPPING, _RESTING = 0, 1, 2  # states of a roller: slips, at ideal spin, at rest
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _glide(w, t, m0, slope, damping, inertia):
     """Spin after t under the moment m0 + slope t and viscous damping: exact."""
     z = damping * t / inertia
@@ -25,7 +27,7 @@ def _glide(w, t, m0, slope, damping, inertia):
     return w * decay + t / inertia * (m0 * first + slope * t * second)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _release(t, span, a0, a1, need0, need1):
     """First time after t at which the need exceeds what holds, both linear; `span` if never."""
     first = span
@@ -39,7 +41,7 @@ def _release(t, span, a0, a1, need0, need1):
     return first
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _extremum(w, m0, rise, slope, damping, inertia):
     """Time after which a glide from w is as steep as `rise`, which it is at most once."""
     rate = (m0 - damping * w) / inertia - rise
@@ -50,7 +52,7 @@ def _extremum(w, m0, rise, slope, damping, inertia):
     return -math.log(share) * inertia / damping if 0.0 < share < 1.0 else math.inf
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _reach(w, t, span, side, line, rise, m0, slope, damping, inertia):
     """First time at which a roller on one side of a line meets it, by bisection; inf if never."""
     now = m0 + slope * t
@@ -72,12 +74,12 @@ def _reach(w, t, span, side, line, rise, m0, slope, damping, inertia):
     return high
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _sense(value):
     return 1.0 if value >= 0.0 else -1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _coulomb_piece(w, state, span, ideal, grip, push, brake, damping, inertia):
     """Spin and state after a piece of time in which all but the state is linear.
 
@@ -152,7 +154,7 @@ def coulomb_spins(time, ideal, grip, push, brake, damping, inertia, start):
     return spin
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _piece(first, last, low, high):
     """Values at both ends of a piece of an interval."""
     return first + (last - first) * low, first + (last - first) * high

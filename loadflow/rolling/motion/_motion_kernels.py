@@ -8,20 +8,21 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from loadflow.numerics.linked import LINKED
 from loadflow.rolling.friction import rolling_resistance
 from loadflow.rolling.friction.rolling_resistance import ELASTIC_POWER
 from loadflow.tribology import asperities, contact_film, traction
 from loadflow.tribology.asperities import SHARE_POWER
 from loadflow.tribology.contact_film import HEAT_POWER
 
-_moes_line = njit(cache=True, error_model="numpy")(contact_film.moes_line_exponent)
-_thermal_factor = njit(cache=True, error_model="numpy")(contact_film.thermal_factor)
-_asperity_share = njit(cache=True, error_model="numpy")(asperities.asperity_share)
-_limiting_stress = njit(cache=True, error_model="numpy")(traction.limiting_stress)
-_inlet_force = njit(cache=True, error_model="numpy")(traction.inlet_force)
-_elastic_force = njit(cache=True, error_model="numpy")(rolling_resistance.elastic_force)
-_rigid_force = njit(cache=True, error_model="numpy")(rolling_resistance.rigid_force)
-_hydrodynamic_force = njit(cache=True, error_model="numpy")(rolling_resistance.hydrodynamic_force)
+_moes_line = njit(error_model="numpy", **LINKED)(contact_film.moes_line_exponent)
+_thermal_factor = njit(error_model="numpy", **LINKED)(contact_film.thermal_factor)
+_asperity_share = njit(error_model="numpy", **LINKED)(asperities.asperity_share)
+_limiting_stress = njit(error_model="numpy", **LINKED)(traction.limiting_stress)
+_inlet_force = njit(error_model="numpy", **LINKED)(traction.inlet_force)
+_elastic_force = njit(error_model="numpy", **LINKED)(rolling_resistance.elastic_force)
+_rigid_force = njit(error_model="numpy", **LINKED)(rolling_resistance.rigid_force)
+_hydrodynamic_force = njit(error_model="numpy", **LINKED)(rolling_resistance.hydrodynamic_force)
 
 CREEP = 1e-6  # slip over surface speed below which the shape of traction is not resolved
 _BOUNDARY_SPEED = 1e-3  # m/s, over which the friction of asperities turns round
@@ -84,7 +85,7 @@ class Contacts(NamedTuple):
     mean: float
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def contact(film, load, radius, u, cooled):
     """Friction of one contact and its slopes; a roller that is not pressed on has none.
 
@@ -148,7 +149,7 @@ def contact(film, load, radius, u, cooled):
     return here, slopes
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _tanh(x):
     """Hyperbolic tangent to rounding of 1: one exponential takes a quarter of its time."""
     if abs(x) > 20.0:
@@ -157,7 +158,7 @@ def _tanh(x):
     return (power - 1.0) / (power + 1.0)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _pull(c, slopes, slip, rubs):
     """Traction of one contact, N, and its slopes over slip and mean speed.
 
@@ -171,7 +172,7 @@ def _pull(c, slopes, slip, rubs):
     return force, over_slip, over_mean - turning * slip / c.core * slopes.core
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def pull(c, slip):
     """Traction of one contact on the roller, N."""
     return (
@@ -190,7 +191,7 @@ def both_contacts(film, surface, spin, load, outward):
     return Contacts(inner, outer, inner_slope, outer_slope, mean)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _moved(c, slopes, change):
     """A contact after a small change of the mean speed."""
     return Contact(
@@ -204,7 +205,7 @@ def _moved(c, slopes, change):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _turn(surface, spin, radius):
     """Sense in which a roller turns, ±1, through 0 where it rests in its pocket.
 
@@ -259,7 +260,7 @@ def _balance(film, contacts, surface, steady, tangential, slip):
     return moment, slope, pull_i + pull_o
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(nogil=True, error_model="numpy", **LINKED)
 def _slip_of_stage(film, contacts, surface, steady, tangential, known, part, slip):
     """Slip speed at which spin = known + part × moment, for given contacts, from a guess.
 

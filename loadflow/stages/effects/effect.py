@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.situation import Situation
+
+Series = Mapping[str, Any]
+"""By stage, what it gave of a case."""
 
 Sizes = Mapping[str, float]
 """By quantity, the share by which an answer changes if the effect is left out."""
@@ -47,6 +51,10 @@ class Effect:
         Those of `rungs` that know a part of it alone, and which; scenes refuse the rest by name.
     own_kernels : bool
         Whether its model has compiled loops for it, and others for when it is out.
+    muted : callable
+        Scene with the effect on → what makes series that its probe reads into such in which it has
+        no size: so a pilot asks what leaving it out changes on loops that are compiled anyway. None
+        where the scene without it is asked.
     """
 
     name: str
@@ -62,6 +70,7 @@ class Effect:
     rungs: tuple[str, ...] = ()
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
+    muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
 
     @property
     def section(self) -> str:

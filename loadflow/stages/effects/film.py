@@ -15,8 +15,9 @@ from loadflow.journal import FilmHeat, Growth, Heat, RingGrowth, Turbulence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
-from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.effect import Effect, Series, Sizes
 from loadflow.stages.effects.situation import Film, Floats, Situation
+from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.stage import with_settings
 from loadflow.tribology import lubricant
 from loadflow.wind.cases import load_case
@@ -301,6 +302,13 @@ def _tilt(at: Situation) -> Sizes:
     return _largest(found)
 
 
+def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
+    """On the rung "reduced" a film around a shaft that may tilt has loops of its own."""
+    if scene.journal.rung != "reduced":
+        return None
+    return lambda given: {**given, "shaft": aligned(scene.journal, given["shaft"])}
+
+
 TILT = Effect(
     "tilt of the shaft",
     model="journal",
@@ -317,6 +325,7 @@ TILT = Effect(
     cost=lambda scene: 4.0,
     rungs=("grid", "reduced"),
     own_kernels=True,
+    muted=_aligned,
 )
 
 
