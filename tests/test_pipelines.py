@@ -130,10 +130,13 @@ FULL = {
 def test_a_start_and_a_stop_at_full_length_and_accuracy(dlc, tmp_path):
     name, speeds = FULL[dlc]
     scene = read_scene(next(path for path in PIPELINES if path.stem == name))
-    scene = scene.model_copy(update={"results": ["journal.film"]})
     run = lf.run(changed(scene, "loads", dlc=dlc, wind_speeds=speeds, seeds=1), out=tmp_path)
     assert run.failures == {}
     assert run.flagged == {}
+    assert {"statistics", "journal", "thrust", "rolling"} <= {*run.tree.children}
+    rollers = run.tree["rolling"].to_dataset()
+    assert (rollers["not_converged"] == 0).all()
+    assert (rollers["life"] > 0).all()
     table = run.tree["journal"].to_dataset().sel(bearing="N")
     assert (table["not_converged"] == 0).all()
     assert (table["smallest_film"] > 0).all()
