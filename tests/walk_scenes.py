@@ -107,17 +107,27 @@ BASES = {
         f"catalogue of {rollers}": {
             "shaft": {"two_point": {}}, "results": ["rolling.friction"],
             "rolling": {"bearing": "N2", "geometry": geometry, "catalogue": {
-                "bore": 0.9, "outside_diameter": 1.5} | entry}}
+                "bore": 0.9, "outside_diameter": 1.5} | entry},
+            "friction": {"lubricant": "mineral-vg-320"}}
         for rollers, geometry, entry in (
-            ("a series", TAPERED, {"series": "320 X", "axial_factor": 1.5}),
+            ("a series", TAPERED, {
+                "series": "320 X", "axial_factor": 1.5, "oil_level": 0.2, "width": 0.15}),
             ("constants", TAPERED, {"constants": {
                 "kind": "tapered", "r1": 2e-6, "r2": 11.0, "s1": 0.02, "s2": 2.0,
                 "axial_factor": 1.5, "geometry": 6.0}}),
             ("barrels", BARRELS, {"constants": {
                 "kind": "spherical", "r1": 2e-6, "r2": 5.0, "r3": 4e-6, "r4": 5.0, "s1": 4e-3,
-                "s2": 500.0, "s3": 0.01, "s4": 100.0, "geometry": 5.5}}),
+                "s2": 500.0, "s3": 0.01, "s4": 100.0, "geometry": 5.5, "roller_geometry": 0.8},
+                "oil_level": 0.2, "width": 0.3}),
         )
     },
+    "catalogue of balls": {
+        "shaft": {"moment": {}}, "results": ["rolling.friction"],
+        "rolling": {"bearing": "M", "geometry": BALLS, "catalogue": {
+            "bore": 1.8, "outside_diameter": 2.2, "oil_level": 0.2, "constants": {
+                "kind": "four-point", "r1": 5e-7, "r2": 2.4, "r3": 1.4e-12, "s1": 0.012, "s2": 0.9,
+                "s3": 1.4e-12, "geometry": 3.1}}},
+        "friction": {"lubricant": "mineral-vg-320"}},
     "mounted rollers": {
         "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
@@ -370,6 +380,7 @@ WALKED = {
     "catalogue of a series": ("rolling.catalogue",),
     "catalogue of constants": ("rolling.catalogue",),
     "catalogue of barrels": ("rolling.catalogue",),
+    "catalogue of balls": ("rolling.catalogue",),
     "mounted rollers, loose": ("rolling", "environment"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),

@@ -37,6 +37,7 @@ from loadflow.rolling.rating.oscillation import idle_torque_of
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.places import FOUR_POINT, GEOMETRIES
 from loadflow.scene.section import SECTION, told_apart
+from loadflow.tribology import lubricant as oil_of
 
 
 def _without_kind(value: Any) -> Any:
@@ -369,6 +370,17 @@ class Rolling(FurtherBearing):
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"
+
+
+def check_baths(rolling: Rolling, lubricant: str) -> None:
+    """Refuse a bath of oil, which a catalogue's drag is of, where the lubricant is a grease."""
+    greased = bool(oil_of(lubricant).thickener)
+    for name, part in rolling.bearings.items():
+        if greased and part.catalogue is not None and part.catalogue.oil_level is not None:
+            raise ValueError(
+                f"bearings.{name}.catalogue.oil_level: a bath of oil; friction.lubricant "
+                f'"{lubricant}" is a grease'
+            )
 
 
 def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:
