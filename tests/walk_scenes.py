@@ -103,6 +103,13 @@ BASES = {
             "section": {"width": 0.1, "height": 0.3}, "radius": 0.7, "harmonics": 8}},
         "friction": {"conductance": 50.0},
     },
+    "bolted ring": {
+        "shaft": {"moment": {}}, "reduction": FEW,
+        "rolling": {"bearing": "M", "geometry": BALLS, "rings": "flexible", "outer_ring": {
+            "section": {"width": 0.1, "height": 0.12}, "radius": 1.06, "harmonics": 8,
+            "supports": [{"radius": 1.08, "height": -0.06, "count": 72, "diameter": 0.03,
+                          "pitch": 3.5e-3, "grip": 0.16}]}},
+    },
     **{
         f"catalogue of {rollers}": {
             "shaft": {"two_point": {}}, "results": ["rolling.friction"],
@@ -376,6 +383,7 @@ WALKED = {
     "worn bores, deep": ("wear.step", "wear.renewal"),
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
+    "bolted ring": ("rolling.outer_ring.supports",),
     "mounted rollers": ("rolling",),
     "catalogue of a series": ("rolling.catalogue",),
     "catalogue of constants": ("rolling.catalogue",),
@@ -454,6 +462,9 @@ def files(folder):
 
 OTHERS = {
     "journal.heat.points": [3],
+    "rolling.outer_ring.supports.0.strength": ["8.8"],
+    "rolling.outer_ring.supports.0.hole": [0.034],
+    "rolling.outer_ring.supports.0.head": [0.045],
     "rolling.outer_ring.supports.0.sectors": [[[0.3, 0.9], [3.4, 0.8]]],
     "design.keys": [{"geometry.width": [1.0, 2.0]}],
     "journal.own.N2.alignment": [[2e-5, 0.0]],
@@ -462,7 +473,7 @@ OTHERS = {
     "journal.own.N2.heat": [{"oil": "mineral-vg-320"}],
     "design.crown": [{}],
     "design.keys.geometry.width.values": [[1.0, 2.0]],
-    "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}],
+    "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}, {"bore": 0.9, "outside_diameter": 2.2}],
     "rolling.further.0.mounting": [{"inner_temperature": 300.0}],
     "rolling.further.0.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.further.0.inner_ring": [{"section": {"width": 0.05, "height": 0.1}, "radius": 0.45}],

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import fields
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
     BaseModel,
     BeforeValidator,
+    TypeAdapter,
     WrapSerializer,
     field_validator,
     model_validator,
@@ -19,6 +21,7 @@ from loadflow.numerics.fields import not_one_of
 from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
+    BoltCircle,
     FlexibleRings,
     MatrixRing,
     MeshedRing,
@@ -143,8 +146,21 @@ def _by_measures(ring: Any) -> Any:
     if stated(ring.get("section"), _SECTION):
         read["section"] = RingSection.rectangle(**ring["section"])
     if isinstance(ring.get("supports"), list):
-        read["supports"] = [_wall(**s) if stated(s, _WALL) else s for s in ring["supports"]]
+        read["supports"] = [_held(s, stated(s, _WALL)) for s in ring["supports"]]
     return read
+
+
+def _held(support: Any, as_wall: bool) -> Any:
+    """A support as a wall, as bolts, which have a ``count``, or as it stands."""
+    if as_wall:
+        return _wall(**support)
+    if isinstance(support, dict) and "count" in support:
+        known = {part.name for part in fields(BoltCircle)}
+        for name in support:
+            if name not in known:
+                raise InputError(f"{name}: {not_one_of(name, sorted(known))}")
+        return TypeAdapter(BoltCircle).validate_python(support)
+    return support
 
 
 if TYPE_CHECKING:
@@ -158,10 +174,10 @@ else:
         },
         usual="beam",
     )
-"""A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
-``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
-compliance, or the stiffness, of ring, bolts and housing together; with ``"finite-element"`` the
-ring is meshed here, with the grooves of its bearing."""
+"""A flexible ring; ``section = {width, height}`` is a rectangle, a support with ``radius``,
+``height``, ``thickness`` and ``length`` a wall, and one with a ``count`` a `BoltCircle`. With
+``kind = "matrix"`` its ``file`` has the compliance, or the stiffness, of ring, bolts and housing
+together; with ``"finite-element"`` the ring is meshed here, with the grooves of its bearing."""
 
 
 if TYPE_CHECKING:
