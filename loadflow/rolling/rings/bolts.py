@@ -217,6 +217,16 @@ class BoltLoads:
         The bolts.
     pull : ndarray, shape (..., bolt)
         Force on each joint along the axis that pulls ring and structure apart, N.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from loadflow.rolling import BoltCircle, BoltLoads
+    >>> bolts = BoltCircle(radius=1.0, height=-0.06, count=60, diameter=0.03, pitch=3.5e-3,
+    ...     grip=0.18)
+    >>> loads = BoltLoads(bolts, np.array([0.0, 1e5, 4e5]))
+    >>> loads.clamping.round(2), (loads.largest_force / 1e3).round()  # kN
+    (array([ 1.  ,  0.67, -0.3 ]), array([427., 440., 479.]))
     """
 
     bolts: BoltCircle
