@@ -24,7 +24,7 @@ FOUND = {
     "journal": "BestCrown ConicalResult DoubleThrustResult EnergyBalance Equilibrium FieldError "
     "FilmField FilmHeatEquilibrium FilmHeatField GridError PadError PadResult "
     "PairResult ThrustResult WarmEquilibrium WarmFilm Wear",
-    "rolling": "BallBearingResult BearingLife EdgeContact ExpansionResult FlexibleResult "
+    "rolling": "BallBearingResult BearingLife BoltLoads EdgeContact ExpansionResult FlexibleResult "
     "LifeModification LineContact PointContact RollerResult RollingEquilibrium SlewingResult "
     "SpectrumLife SpinningResult ThreeRowResult Transient Verdict",
     "tribology": "FlowFactors ShaftImprint WornArc",

@@ -103,21 +103,38 @@ BASES = {
             "section": {"width": 0.1, "height": 0.3}, "radius": 0.7, "harmonics": 8}},
         "friction": {"conductance": 50.0},
     },
+    "bolted ring": {
+        "shaft": {"moment": {}}, "reduction": FEW,
+        "rolling": {"bearing": "M", "geometry": BALLS, "rings": "flexible", "outer_ring": {
+            "section": {"width": 0.1, "height": 0.12}, "radius": 1.06, "harmonics": 8,
+            "supports": [{"radius": 1.08, "height": -0.06, "count": 72, "diameter": 0.03,
+                          "pitch": 3.5e-3, "grip": 0.16}]}},
+    },
     **{
         f"catalogue of {rollers}": {
             "shaft": {"two_point": {}}, "results": ["rolling.friction"],
             "rolling": {"bearing": "N2", "geometry": geometry, "catalogue": {
-                "bore": 0.9, "outside_diameter": 1.5} | entry}}
+                "bore": 0.9, "outside_diameter": 1.5} | entry},
+            "friction": {"lubricant": "mineral-vg-320"}}
         for rollers, geometry, entry in (
-            ("a series", TAPERED, {"series": "320 X", "axial_factor": 1.5}),
+            ("a series", TAPERED, {
+                "series": "320 X", "axial_factor": 1.5, "oil_level": 0.2, "width": 0.15}),
             ("constants", TAPERED, {"constants": {
                 "kind": "tapered", "r1": 2e-6, "r2": 11.0, "s1": 0.02, "s2": 2.0,
                 "axial_factor": 1.5, "geometry": 6.0}}),
             ("barrels", BARRELS, {"constants": {
                 "kind": "spherical", "r1": 2e-6, "r2": 5.0, "r3": 4e-6, "r4": 5.0, "s1": 4e-3,
-                "s2": 500.0, "s3": 0.01, "s4": 100.0, "geometry": 5.5}}),
+                "s2": 500.0, "s3": 0.01, "s4": 100.0, "geometry": 5.5, "roller_geometry": 0.8},
+                "oil_level": 0.2, "width": 0.3}),
         )
     },
+    "catalogue of balls": {
+        "shaft": {"moment": {}}, "results": ["rolling.friction"],
+        "rolling": {"bearing": "M", "geometry": BALLS, "catalogue": {
+            "bore": 1.8, "outside_diameter": 2.2, "oil_level": 0.2, "constants": {
+                "kind": "four-point", "r1": 5e-7, "r2": 2.4, "r3": 1.4e-12, "s1": 0.012, "s2": 0.9,
+                "s3": 1.4e-12, "geometry": 3.1}}},
+        "friction": {"lubricant": "mineral-vg-320"}},
     "mounted rollers": {
         "environment": {"temperature": 263.15}, "shaft": {"two_point": {}},
         "rolling": {"bearing": "N2", "geometry": {
@@ -366,10 +383,12 @@ WALKED = {
     "worn bores, deep": ("wear.step", "wear.renewal"),
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
+    "bolted ring": ("rolling.outer_ring.supports",),
     "mounted rollers": ("rolling",),
     "catalogue of a series": ("rolling.catalogue",),
     "catalogue of constants": ("rolling.catalogue",),
     "catalogue of barrels": ("rolling.catalogue",),
+    "catalogue of balls": ("rolling.catalogue",),
     "mounted rollers, loose": ("rolling", "environment"),
     "thrust collar": ("thrust",),
     "pair of cones": ("thrust",),
@@ -443,6 +462,9 @@ def files(folder):
 
 OTHERS = {
     "journal.heat.points": [3],
+    "rolling.outer_ring.supports.0.strength": ["8.8"],
+    "rolling.outer_ring.supports.0.hole": [0.034],
+    "rolling.outer_ring.supports.0.head": [0.045],
     "rolling.outer_ring.supports.0.sectors": [[[0.3, 0.9], [3.4, 0.8]]],
     "design.keys": [{"geometry.width": [1.0, 2.0]}],
     "journal.own.N2.alignment": [[2e-5, 0.0]],
@@ -451,7 +473,7 @@ OTHERS = {
     "journal.own.N2.heat": [{"oil": "mineral-vg-320"}],
     "design.crown": [{}],
     "design.keys.geometry.width.values": [[1.0, 2.0]],
-    "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}],
+    "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}, {"bore": 0.9, "outside_diameter": 2.2}],
     "rolling.further.0.mounting": [{"inner_temperature": 300.0}],
     "rolling.further.0.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
     "rolling.further.0.inner_ring": [{"section": {"width": 0.05, "height": 0.1}, "radius": 0.45}],

@@ -50,6 +50,9 @@ from .rating.oscillation import PitchMotion as PitchMotion
 from .rating.static import Verdict as Verdict
 from .rating.static import verdicts as verdicts
 from .rings.beam import RingBeam as RingBeam
+from .rings.bolts import BoltCircle as BoltCircle
+from .rings.bolts import BoltLoads as BoltLoads
+from .rings.bolts import bolt_loads as bolt_loads
 from .rings.dynamics import craig_bampton as craig_bampton
 from .rings.dynamics import natural_frequencies as natural_frequencies
 from .rings.expansion import ExpansionResult as ExpansionResult

@@ -16,7 +16,7 @@ from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import Array, Contacts, mean_offset
 
 if TYPE_CHECKING:
-    from loadflow.rolling.friction.catalogue import CatalogueKind
+    from loadflow.rolling.friction.skf import CatalogueKind
 
 
 class RollingGeometry(ABC):

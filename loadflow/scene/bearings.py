@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import fields
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
 from pydantic import (
     BaseModel,
     BeforeValidator,
+    TypeAdapter,
     WrapSerializer,
     field_validator,
     model_validator,
@@ -19,6 +21,7 @@ from loadflow.numerics.fields import not_one_of
 from loadflow.rolling import (
     ARRANGEMENTS,
     KINDS,
+    BoltCircle,
     FlexibleRings,
     MatrixRing,
     MeshedRing,
@@ -37,6 +40,7 @@ from loadflow.rolling.rating.oscillation import idle_torque_of
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.places import FOUR_POINT, GEOMETRIES
 from loadflow.scene.section import SECTION, told_apart
+from loadflow.tribology import lubricant as oil_of
 
 
 def _without_kind(value: Any) -> Any:
@@ -142,8 +146,21 @@ def _by_measures(ring: Any) -> Any:
     if stated(ring.get("section"), _SECTION):
         read["section"] = RingSection.rectangle(**ring["section"])
     if isinstance(ring.get("supports"), list):
-        read["supports"] = [_wall(**s) if stated(s, _WALL) else s for s in ring["supports"]]
+        read["supports"] = [_held(s, stated(s, _WALL)) for s in ring["supports"]]
     return read
+
+
+def _held(support: Any, as_wall: bool) -> Any:
+    """A support as a wall, as bolts, which have a ``count``, or as it stands."""
+    if as_wall:
+        return _wall(**support)
+    if isinstance(support, dict) and "count" in support:
+        known = {part.name for part in fields(BoltCircle)}
+        for name in support:
+            if name not in known:
+                raise InputError(f"{name}: {not_one_of(name, sorted(known))}")
+        return TypeAdapter(BoltCircle).validate_python(support)
+    return support
 
 
 if TYPE_CHECKING:
@@ -157,10 +174,10 @@ else:
         },
         usual="beam",
     )
-"""A flexible ring; ``section = {width, height}`` is a rectangle, and a support with ``radius``,
-``height``, ``thickness`` and ``length`` a wall. With ``kind = "matrix"`` its ``file`` has the
-compliance, or the stiffness, of ring, bolts and housing together; with ``"finite-element"`` the
-ring is meshed here, with the grooves of its bearing."""
+"""A flexible ring; ``section = {width, height}`` is a rectangle, a support with ``radius``,
+``height``, ``thickness`` and ``length`` a wall, and one with a ``count`` a `BoltCircle`. With
+``kind = "matrix"`` its ``file`` has the compliance, or the stiffness, of ring, bolts and housing
+together; with ``"finite-element"`` the ring is meshed here, with the grooves of its bearing."""
 
 
 if TYPE_CHECKING:
@@ -369,6 +386,17 @@ class Rolling(FurtherBearing):
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"
+
+
+def check_baths(rolling: Rolling, lubricant: str) -> None:
+    """Refuse a bath of oil, which a catalogue's drag is of, where the lubricant is a grease."""
+    greased = bool(oil_of(lubricant).thickener)
+    for name, part in rolling.bearings.items():
+        if greased and part.catalogue is not None and part.catalogue.oil_level is not None:
+            raise ValueError(
+                f"bearings.{name}.catalogue.oil_level: a bath of oil; friction.lubricant "
+                f'"{lubricant}" is a grease'
+            )
 
 
 def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:

@@ -20,7 +20,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.bearings import Rolling, check_capacities, check_swinging
+from loadflow.scene.bearings import Rolling, check_baths, check_capacities, check_swinging
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
@@ -207,6 +207,11 @@ class Scene(Section, BaseModel):
     @model_validator(mode="after")
     def _beside_the_shaft_bearings_swing(self) -> Self:
         check_swinging(self.rolling, self.journal.bearings if self.wants("journal") else ())
+        return self
+
+    @model_validator(mode="after")
+    def _baths_have_oil(self) -> Self:
+        check_baths(self.rolling, self.friction.lubricant)
         return self
 
     @model_validator(mode="after")

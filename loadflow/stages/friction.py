@@ -166,9 +166,15 @@ def _balls(
         assert found.slip_power_density is not None
         mean = _mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
-        parts.append((found.power, found.torque, least, slip, curved, mean, density))
-    kept = dict(zip(KEPT, (np.concatenate(values) for values in zip(*parts))))
-    return kept | {"catalogues": {}}
+        kept = dict(
+            zip(KEPT, (found.power, found.torque, least, slip, curved, mean, density), strict=True)
+        )
+        parts.append((kept, torques_beside(result, speed[some], options, part.catalogue)))
+    whole, beside = (
+        {name: np.concatenate([part[name] for part in some]) for name in some[0]}
+        for some in zip(*parts)
+    )
+    return whole | {"catalogues": beside}
 
 
 def _unknown(part: FurtherBearing, *_: Any) -> dict[str, Any]:

@@ -9,7 +9,14 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import Lubrication, modified_spectrum_life, system_life
+from loadflow.rolling import (
+    BoltCircle,
+    Lubrication,
+    bolt_loads,
+    modified_spectrum_life,
+    system_life,
+)
+from loadflow.rolling.contacts import Raceway
 from loadflow.rolling.rating import life, safety
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
@@ -58,6 +65,7 @@ EACH = {
     "bearing_design_time": ("s", "time of the smallest static safety"),
     "bearing_load_factor": ("1", "partial safety factor for loads"),
     "bearing_truncated": ("1", "share of time with a contact cut off at a shoulder"),
+    "bearing_clamping": ("1", "least share of its preload that clamps a bolted joint of a ring"),
     "bearing_axial_force": ("N", "largest force along the shaft"),
     "bearing_torque": ("N m", "largest friction torque of a slewing bearing, by its loads"),
     "bearing_pressure": ("Pa", "largest pressure"),
@@ -201,6 +209,7 @@ def _of_bearing(
         "bearing_design_time": time,
         "bearing_load_factor": factor,
         "bearing_truncated": _truncated_share(answer, weight),
+        "bearing_clamping": _clamping(part, answer),
         "bearing_axial_force": float(np.abs(reduced["force"].values[:, 0]).max()),
         "bearing_torque": _torque(answer, part.idle_torque),
         "bearing_pressure": float(np.max(answer.maximum_pressure)),
@@ -214,6 +223,23 @@ def _torque(answer: Any, idle: float) -> float:
     if not answer.bearing.torque_models:
         return np.nan
     return float(np.max(answer.friction_torque(idle=idle)))
+
+
+def _clamping(part: FurtherBearing, answer: Any) -> float:
+    """Least clamping of bolted rings under the hardest samples; NaN without such rings."""
+    rings: tuple[tuple[Raceway, Any], ...] = (
+        ("inner", part.inner_ring),
+        ("outer", part.outer_ring),
+    )
+    bolted = [
+        side
+        for side, ring in rings
+        if part.rings == "flexible"
+        and any(isinstance(held, BoltCircle) for held in getattr(ring, "supports", ()))
+    ]
+    hardest = np.argsort(answer.static_safety)[:_HARDEST]
+    found = [one for side in bolted for one in bolt_loads(answer, side, hardest)]
+    return min((float(one.clamping.min()) for one in found), default=np.nan)
 
 
 def _truncated_share(answer: Any, weight: np.ndarray) -> float:

@@ -346,6 +346,12 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
                 case=case if value else "",
                 note="share of the time of the load case",
             )  # fmt: skip
+        value, case, _ = _worst(part, "bearing_clamping", "least")
+        if case:
+            yield Verdict(
+                subject, "share of the preload that clamps the bolts of its rings", value, 0.0,
+                "at least", source="VDI 2230: joints must not open", case=case,
+            )  # fmt: skip
         value, case, _ = _worst(part, "bearing_axial_force", "most")
         if value > SLIGHT * float(part["bearing_force"].max()):
             carried = bearing.takes_thrust

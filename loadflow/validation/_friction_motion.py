@@ -3,7 +3,9 @@
 The oil's temperature in the tests is not given (45 … 60 °C): one viscosity, 37.1 mPa s, is fitted
 to the first row of Table 8.5 and holds for all rows of both models; the reversing loads, run on
 another day, take 29 mPa s, fitted to their first row. Of Table 8.6 only the rows under reversing
-loads can be computed, for the others no loads are given. Nothing is fitted to the measurements.
+loads can be computed, for the others no loads are given. The mass of the cage is fitted to one of
+its four gaps. Nothing is fitted to the measurements; that drops of oil leave the pockets drained,
+and 60 °C, are chosen, and the rows say so.
 """
 
 from __future__ import annotations
@@ -43,6 +45,8 @@ _OFTENER = (
     "slip by a fifth to two fifths from 1000/min on and meets three of the five rows"
 )
 AT_60 = 26.3e-3  # Pa s, the source's oil at 60 °C, the upper end of the tests
+CAGE_MASS = 30.665e-3  # kg, fitted to the least gap at 1000/min; the print has no mass
+_COLDER = "the tests' oil had 45 … 60 °C: at 55 °C ours is within the bound, and so at 50 and 45 °C"
 
 # speed (1/min), load (N), slip (%) measured (mid of ranges), stage 1, stage 2
 STATIC = (
@@ -173,40 +177,60 @@ def drained_model() -> Model:
     return film_model(AT_60, DragConstants(0.0, 0.0), "moes")
 
 
+# half of a range that the source prints, points, but no more than 8; rows of one speed are repeats,
+# as its text finds no effect of the load: their standard deviation about the mean of the speed,
+# pooled over 1000 and 2000/min
+_RANGES = {(2000, 2e3): 8.0, (2000, 13.8e3): 5.0}
+_REPEATS = 6.5
+
+
 @evidence("measured elsewhere")
 def _measured() -> Iterator[Check]:
     """Slip measured, beside films of all regimes with drained pockets and oil at 60 °C.
 
-    The temperature of the tests is not given: the 15 K within which it lies, 60 to 45 °C, move the
-    slip by 5 to 9 points, and by so much it may be off.
+    Both are chosen: of the tests 45 … 60 °C are printed, which move the slip by 6 to 10 points.
     """
     model = drained_model()
+    source = "Table 8.5, drained pockets, 60 °C (both chosen)"
     for rpm, force, measured, *_ in STATIC:
         got = _percent(model, static_load(rpm, force))
         name = f"slip measured, {rpm}/min, {force / 1e3:g} kN"
-        yield Check(name, "Table 8.5, drained pockets", measured, got, 8.0, "absolute", "%")
+        within = _RANGES.get((rpm, force), _REPEATS)
+        low = (rpm, force) in ((1000, 2e3), (2000, 13.8e3))
+        yield Check(
+            name, source, measured, got, within, "absolute", "%", missed=_COLDER if low else ""
+        )
     for rpm, measured, *_ in REVERSING:
         got = _percent(model, reversing_load(rpm))
         name = f"slip measured, ±2 kN, {rpm}/min"
         yield Check(
-            name, "Table 8.6, drained pockets", measured, got, 8.0, "absolute", "%",
+            name, "Table 8.6, drained pockets, 60 °C (both chosen)", measured, got, 8.0,
+            "absolute", "%",
             missed=_OFTENER,
         )  # fmt: skip
 
 
 @evidence("print of the source")
 def _cage() -> Iterator[Check]:
-    """Gap of the crank-pin bearing's cage in the rod (B2); its mass, 30 g, is fitted."""
+    """Gap of the crank-pin bearing's cage in the rod (B2), within half of the last digit printed.
+
+    Its mass is not printed: it is fitted to the first gap, and the other three are foretold.
+    """
     drive = CrankDrive(radius=42.5e-3, rod_length=143.5e-3)
     rim = CageRim(width=4e-3, bore=63e-3, diameter=62.85e-3, viscosity=10.6e-3)
     for rpm, low, high in ((1000, 3.8, 5.2), (6000, 1.5, 2.1)):
         omega = rpm * RPM
         time = np.linspace(0, 2 * math.pi / omega, 181)
         ring = drive.swing(omega * time, omega).speed
-        force = float(parts.cage_inertia_force(30e-3, 18, 6.67e-3, drive.radius, omega))
+        force = float(parts.cage_inertia_force(CAGE_MASS, 18, 6.67e-3, drive.radius, omega))
         orbit = cage_orbit(rim, time, (force, 0.0), 21 / 37 * ring, ring)
         for word, printed, got in (
             ("least", low, orbit.minimum_gap.min()), ("largest", high, orbit.minimum_gap.max()),
         ):  # fmt: skip
+            fitted = (rpm, word) == (1000, "least")
             name = f"{word} gap of the cage, {rpm}/min"
-            yield Check(name, "ch. 8.3.3", printed, float(got) * 1e6, 0.1, "absolute", "μm")
+            source = f"ch. 8.3.3, mass {'fitted to it' if fitted else 'fitted to the first gap'}"
+            yield Check(
+                name, source, printed, float(got) * 1e6, 0.05, "absolute", "μm",
+                evidence=_fitted(fitted),
+            )  # fmt: skip

@@ -198,6 +198,11 @@ def couette_check(cells: int = 100) -> Check:
 # off a figure to 1 K) and by the authors' model with elastic pads, °C
 FILLON = ((1000, 49.5, 43.7), (2000, 59.5, 53.4), (3000, 67.5, 63.2))
 _SLOW = "their model has the coldest pad of all published ones there, 5.8 K below the measurement"
+_RISE = (
+    "from 1000/min on ours rises by 5.8 and 10.7 K, the measured by 10 and 18; oil carried over to "
+    "95 % and pads that lose no heat bring 7.4 and 11.4 K, and all published models lie 4 to 7 K "
+    "low: not found"
+)
 
 
 def pad_checks() -> Iterator[Check]:
@@ -205,8 +210,7 @@ def pad_checks() -> Iterator[Check]:
 
     A cubic across the film; heat passes through 20 mm of steel and from the backs of the pads, as
     in the large bearing of this file, into oil as it is supplied; none into the shaft. Clearance is
-    the assembled one. All published models lie 4 to 7 K below the measurement, so that it is held
-    to from 8 K below to 2 K above, which is 3 K below within 5 K; the authors' model within 4 K.
+    the assembled one. The measurement is held to as it was read, the authors' model within 4 K.
     """
     oil = ExponentialOil(
         reference_viscosity=0.0277,
@@ -231,8 +235,8 @@ def pad_checks() -> Iterator[Check]:
         missed = _SLOW if rpm == 1000 else ""
         name, source = f"T_max of four pads, {rpm}/min", "Fillon, Bligoud and Frêne 1992"
         yield Check(
-            f"{name}, 3 K below the measured", source, measured - 3.0, got, 5.0, "absolute", "°C",
-            evidence="measured elsewhere",
+            f"{name}, measured", source, measured, got, 1.0, "absolute", "°C",
+            missed=_RISE if rpm > 1000 else "", evidence="measured elsewhere",
         )  # fmt: skip
         yield Check(
             f"{name}, their model", source, computed, got, 4.0, "absolute", "°C",

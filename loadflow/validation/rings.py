@@ -17,12 +17,14 @@ from typing import Any
 import numpy as np
 
 from loadflow.rolling import (
+    BoltCircle,
     FlexibleRings,
     RingBeam,
     RingSection,
     SlewingBearing,
     Support,
 )
+from loadflow.rolling.rings.bolts import Strength
 from loadflow.rolling.rings.finite_element import FiniteElementRing
 from loadflow.rolling.rings.patches import PatchPoints
 from loadflow.rolling.rings.profile import RingProfile
@@ -88,6 +90,7 @@ def four_ball_rings() -> FlexibleRings:
 def checks() -> Iterator[Check]:
     """Yield all rows."""
     yield from _closed_forms()
+    yield from _bolts()
     yield from _rigid_limit()
     yield from _in_series()
     yield from _four_ball()
@@ -159,6 +162,26 @@ def _solve(bearing: SlewingBearing, load: Load, rings: FlexibleRings) -> tuple[f
     result = bearing.equilibrium(load[:3], load[3:], rings=rings)
     size = np.linalg.norm(result.displacement / result.contacts.scale)
     return float(size), float(result.maximum_force)
+
+
+@evidence("print of the source")
+def _bolts() -> Iterator[Check]:
+    """Assembly preload of bolts with fine threads, kN."""
+    source = "table of VDI 2230:2001, 90 % of the yield strength"
+    cases: tuple[tuple[int, float, Strength, float, float], ...] = (
+        (10, 1.25, "10.9", 0.12, 46.4), (12, 1.25, "12.9", 0.14, 80.4),
+        (16, 1.5, "8.8", 0.12, 87.6), (20, 1.5, "8.8", 0.12, 148.0), (20, 1.5, "10.9", 0.10, 215.0),
+        (22, 1.5, "12.9", 0.14, 296.0), (24, 2.0, "8.8", 0.14, 204.0),
+        (24, 2.0, "10.9", 0.12, 297.0), (24, 2.0, "12.9", 0.10, 355.0),
+    )  # fmt: skip
+    for size, pitch, strength, friction, printed in cases:
+        bolts = BoltCircle(
+            radius=1.0, height=-0.1, count=36, diameter=size * 1e-3, pitch=pitch * 1e-3, grip=0.1,
+            strength=strength, friction=friction,
+        )  # fmt: skip
+        name = f"preload of M{size} x {pitch:g}, {strength}, μ = {friction:g}"
+        # the print does not say with which digits of areas and diameters it calculates
+        yield Check(name, source, printed, bolts.preload / 1e3, 0.003, unit="kN")
 
 
 @evidence("consistency")

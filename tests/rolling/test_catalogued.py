@@ -124,7 +124,7 @@ BARREL_CONSTANTS = SkfConstants(kind="spherical", r1=2e-6, s1=1e-3, s2=1.0)
         (
             SlewingBearing(balls=40, rows=1, ball_diameter=0.06, pitch_diameter=0.95,
                            groove_radius=0.0312, contact_angle=0.8),
-            {}, "not of this SlewingBearing",
+            {"series": "240"}, "series of four-point balls",
         ),
     ],
 )  # fmt: skip

@@ -239,52 +239,6 @@ def test_palmgren_is_continuous_and_loads_follow_their_exponents():
         catalogue.palmgren_load_torque(1e3, 0.06, 3e-4, exponent=0.3)
 
 
-def test_skf_sliding_goes_from_boundary_to_full_film():
-    series = catalogue.SkfConstants(kind="cylindrical", r1=1e-6, s1=0.16, s2=0.0015)
-    _, still = catalogue.skf_torque(series, 5e3, 0.0, 0.0, 100e-6, 0.04, 0.08)
-    _, fast = catalogue.skf_torque(series, 5e3, 0.0, 500.0, 100e-6, 0.04, 0.08)
-    assert still / fast == pytest.approx(0.15 / 0.02, rel=1e-3)
-    rolling, _ = catalogue.skf_torque(series, 5e3, 0.0, np.array([10.0, 20.0]), 10e-6, 0.04, 0.08)
-    assert rolling[1] / rolling[0] == pytest.approx(2**0.6, rel=0.05)
-
-
-@pytest.mark.parametrize("kind", ["cylindrical", "tapered", "spherical"])
-def test_every_series_of_skf_gives_a_coefficient_of_friction_as_catalogues_know_it(kind):
-    for series in catalogue.skf_series(kind):
-        known = catalogue.skf_constants(kind, series, 1.5 if kind == "tapered" else 0.0)
-        bore, load = 0.1, 4e4
-        torque = sum(catalogue.skf_torque(known, load, 0.0, 100.0, 30e-6, bore, 0.18))
-        assert 3e-4 < torque / (load * bore / 2) < 4e-3, series
-
-
-def test_skf_torque_of_a_spherical_bearing_is_that_of_its_formula_by_hand():
-    known = catalogue.skf_constants("spherical", "240")
-    rolling, sliding = catalogue.skf_torque(known, 1e6, 2e5, 1.0, 320e-6, 0.75, 1.09)
-    mean, n, nu = 920.0, 30 / np.pi, 320.0
-    least = min(2.9e-6 * mean**1.85 * 1.974e6**0.54, 4.78e-6 * mean**2.3 * 1.968e6**0.31)
-    heat = 1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64
-    refill = np.exp(-6e-8 * nu * n * 1840 * np.sqrt(5.5 / 680))
-    assert rolling == pytest.approx(least * (nu * n) ** 0.6 * refill / heat * 1e-3, rel=1e-12)
-    dry = np.exp(-2.6e-8 * (n * nu) ** 1.4 * mean)
-    points = 6.95e-3 * mean**0.25 * (1e24 + 240 * 1.6e21) ** (1 / 3)
-    lines = 2.1e-2 * mean**0.94 * (1e18 + 68 * 8e15) ** (1 / 3)
-    friction = 0.15 * dry + 0.05 * (1 - dry)
-    assert sliding == pytest.approx(min(points, lines) * friction * 1e-3, rel=1e-12)
-
-
-def test_skf_names_the_series_that_it_has():
-    with pytest.raises(InputError, match="did you mean 240"):
-        catalogue.skf_constants("spherical", "2400")
-    with pytest.raises(InputError, match="axial_factor"):
-        catalogue.skf_constants("tapered", "302")
-    with pytest.raises(InputError, match="of others it is left out"):
-        catalogue.skf_constants("spherical", "240", axial_factor=1.5)
-    with pytest.raises(InputError, match="kind: must be one of cylindrical"):
-        catalogue.skf_series("ball")
-    with pytest.raises(InputError, match="kind: must be one of cylindrical"):
-        catalogue.SkfConstants(kind="ball", r1=1e-6, s1=0.16, s2=0.0015)
-
-
 def test_radial_distribution_of_the_main_bearing():
     angles = 2 * np.pi * np.arange(14) / 14
     law = radial_load.behw_law(11e-3)

@@ -13,6 +13,7 @@ from loadflow.errors import InputError
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfBalls
 from loadflow.rolling.contacts import POINT, Contacts, azimuths, row_sides
+from loadflow.rolling.friction.skf import CatalogueKind
 from loadflow.rolling.geometry import FacingRows
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity
@@ -69,6 +70,11 @@ class BallBearing(FacingRows, BallRaceways, BearingOfBalls):
         bound = 2 * self.groove_distance * math.cos(self.contact_angle)
         if abs(self.clearance) >= bound:
             raise InputError(f"clearance: must be within ±{bound:g} m, got {self.clearance:g}")
+
+    @property
+    def catalogue_kind(self) -> CatalogueKind:
+        """Angular contact where the balls have a contact angle without load."""
+        return "angular contact" if self.contact_angle > 0 else "deep groove"
 
     @cached_property
     def rated_capacity(self) -> float:

@@ -19,6 +19,7 @@ from loadflow.rolling.bearings.elements import BearingOfBalls
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import POINT, Array, Contacts, azimuths
 from loadflow.rolling.friction import FRICTION_FACTORS
+from loadflow.rolling.friction.skf import CatalogueKind
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.rating import capacity, life, safety
 from loadflow.rolling.rings.coupling import PointCoupling
@@ -81,6 +82,11 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
         bound = 2 * self.groove_distance * math.sin(self.contact_angle)
         if abs(self.clearance) >= bound:
             raise InputError(f"clearance: |G_a| must be < {bound:g} m, got {self.clearance:g}")
+
+    @property
+    def catalogue_kind(self) -> CatalogueKind:
+        """Four-point; catalogues have those of one row."""
+        return "four-point"
 
     @cached_property
     def rated_capacity(self) -> float:

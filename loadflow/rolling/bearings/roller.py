@@ -12,7 +12,7 @@ from annotated_types import Ge, Lt
 from loadflow.numerics.fields import check_choice
 from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths, row_sides
-from loadflow.rolling.friction.catalogue import CatalogueKind
+from loadflow.rolling.friction.skf import CatalogueKind
 from loadflow.rolling.geometry import FacingRows
 from loadflow.rolling.roller_raceways import RollerRaceways
 

@@ -11,7 +11,7 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.rolling.bearings.elements import BearingOfRollers
 from loadflow.rolling.contacts import LINE, Contacts, azimuths
-from loadflow.rolling.friction.catalogue import CatalogueKind
+from loadflow.rolling.friction.skf import CatalogueKind
 from loadflow.rolling.roller_raceways import RollerRaceways
 
 

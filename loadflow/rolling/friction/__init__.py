@@ -13,7 +13,8 @@ roller_losses       film, Λ and losses of a whole roller bearing in ideal rolli
 ball_losses         the same of ball and slewing bearings; `bearing`: what both share
 differential_slip   sliding in curved contacts: mean speed along barrels, friction coefficient
 heat                temperature at which losses and cooling balance
-catalogue           Stribeck, Palmgren, SKF; `catalogued`: those of a bearing under its loads
+catalogue           Stribeck, Palmgren; `skf`: rolling, sliding, drag of each series of bearings
+catalogued          those of a bearing under its loads
 slewing_torque      slewing bearings, from loads and from ball forces
 ==================  ===========================================================================
 """

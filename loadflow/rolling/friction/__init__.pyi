@@ -1,13 +1,9 @@
 from .ball_losses import ball_friction as ball_friction
 from .bearing import BearingFriction as BearingFriction
-from .catalogue import SkfConstants as SkfConstants
 from .catalogue import catalogue_torques as catalogue_torques
 from .catalogue import palmgren_idle_torque as palmgren_idle_torque
 from .catalogue import palmgren_load_torque as palmgren_load_torque
 from .catalogue import palmgren_torque as palmgren_torque
-from .catalogue import skf_constants as skf_constants
-from .catalogue import skf_series as skf_series
-from .catalogue import skf_torque as skf_torque
 from .catalogue import stribeck_torque as stribeck_torque
 from .catalogued import CatalogueEntry as CatalogueEntry
 from .catalogued import torques_beside as torques_beside
@@ -40,6 +36,11 @@ from .rolling_resistance import hydrodynamic_force as hydrodynamic_force
 from .rolling_resistance import hydrodynamic_torque as hydrodynamic_torque
 from .rolling_resistance import hysteresis_moment as hysteresis_moment
 from .rolling_resistance import rigid_force as rigid_force
+from .skf import SkfConstants as SkfConstants
+from .skf import skf_constants as skf_constants
+from .skf import skf_drag_torque as skf_drag_torque
+from .skf import skf_series as skf_series
+from .skf import skf_torque as skf_torque
 from .slewing_torque import FRICTION_FACTORS as FRICTION_FACTORS
 from .slewing_torque import friction_factor as friction_factor
 from .slewing_torque import friction_torque_components as friction_torque_components

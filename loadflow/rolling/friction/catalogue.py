@@ -1,34 +1,23 @@
-"""Catalogue formulas of the friction torque: Stribeck, Palmgren, SKF. For comparison.
+"""Catalogue formulas of the friction torque: Stribeck, Palmgren, and SKF's beside. For comparison.
 
 They are scaled from small fast bearings; on a slow main bearing they spread by a factor of three
 and more, which is why they stand beside the component models. SI units at the door.
 
 References
 ----------
-Stribeck 1901; Palmgren 1957 and 1964, as (4.31)–(4.35) of von Hollen 2013; SKF, Rolling bearings,
-chapter Friction (forms of G_rr, G_sl, μ_sl, inlet heating; the constants R, S of each series are in
-`loadflow/data/skf_friction.toml`; the drag term needs the catalogue's diagrams and is left out).
+Stribeck 1901; Palmgren 1957 and 1964, as (4.31)–(4.35) of von Hollen 2013; SKF: `skf`.
 """
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import lru_cache
-from importlib import resources
-from typing import Annotated, Any, Literal, get_args
-
 import numpy as np
-from annotated_types import Ge, Gt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import check_choice, check_fields, check_one_of
+from loadflow.numerics.fields import check_one_of
+from loadflow.rolling.friction.skf import CatalogueKind, SkfConstants, skf_torque
 
 Array = NDArray[np.float64]
-CatalogueKind = Literal["cylindrical", "tapered", "spherical"]
-_NotNegative = Annotated[float, Ge(0)]
 _RPM = 30 / np.pi  # rad/s in 1/min
 
 # Palmgren's f₀ of oil-bath or grease lubrication, and f₁ of cylindrical, tapered and spherical
@@ -41,10 +30,10 @@ FRICTION_COEFFICIENTS = {
     "cylindrical": 0.0011,
     "tapered": 0.0018,
     "spherical": 0.0018,
-    "ball": 0.0015,
+    "deep groove": 0.0015,
+    "angular contact": 0.0020,
+    "four-point": 0.0024,
 }
-
-_SLIDING = {"cylindrical": 0.02, "tapered": 0.002}  # μ_EHL; other bearings 0.05 (mineral oil)
 
 
 def stribeck_torque(load: ArrayLike, pitch_diameter: float, friction: float) -> Array:
@@ -174,183 +163,6 @@ def palmgren_torque(
     return np.asarray(idle + palmgren_load_torque(load, pitch_diameter, PALMGREN_F1[kind]))
 
 
-@dataclass(frozen=True, kw_only=True)
-class SkfConstants:
-    """Constants of one bearing series; those of SKF's table give `skf_constants`.
-
-    Attributes
-    ----------
-    kind : {"cylindrical", "tapered", "spherical"}
-        Type of bearing.
-    r1, r2, r3, r4 : float
-        R of the rolling torque (cylindrical: R₁; tapered: R₁, R₂; spherical: all).
-    s1, s2, s3, s4 : float
-        S of the sliding torque (spherical: all, else S₁, S₂).
-    axial_factor : float
-        Y of tapered bearings.
-    starvation, geometry : float
-        K_rs (3e-8 oil bath, 6e-8 grease) and K_Z (cylindrical 5.1, spherical 5.5, tapered 6).
-
-    Raises
-    ------
-    InputError
-        A kind that is none of these, or a negative constant.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import SkfConstants
-    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.16, s2=0.0015, geometry=5.1)
-    >>> series.starvation
-    6e-08
-    """
-
-    kind: CatalogueKind
-    r1: _NotNegative
-    s1: _NotNegative
-    s2: _NotNegative
-    r2: _NotNegative = 0.0
-    r3: _NotNegative = 0.0
-    r4: _NotNegative = 0.0
-    s3: _NotNegative = 0.0
-    s4: _NotNegative = 0.0
-    axial_factor: _NotNegative = 0.0
-    starvation: _NotNegative = 6e-8
-    geometry: Annotated[float, Gt(0)] = 5.1
-
-    def __post_init__(self) -> None:
-        check_fields(self)
-        check_choice(self, "kind", get_args(CatalogueKind))
-
-    def idle(self) -> Iterator[tuple[str, str]]:
-        """Constants that the formulas of the type do not have, and why."""
-        read = {
-            "cylindrical": (),
-            "tapered": ("r2", "axial_factor"),
-            "spherical": ("r2", "r3", "r4", "s3", "s4"),
-        }[self.kind]
-        for name in ("r2", "r3", "r4", "s3", "s4", "axial_factor"):
-            if name not in read:
-                yield name, f"SKF's formulas of {self.kind} rollers have none"
-
-
-def skf_constants(kind: CatalogueKind, series: str, axial_factor: float = 0.0) -> SkfConstants:
-    """Constants of a series from SKF's table, `loadflow/data/skf_friction.toml`.
-
-    Parameters
-    ----------
-    kind : {"cylindrical", "tapered", "spherical"}
-        Type of bearing.
-    series : str
-        One of `skf_series` of that type.
-    axial_factor : float
-        Y of a tapered bearing; each has its own, and others have none.
-
-    Raises
-    ------
-    InputError
-        If there is no such type or series, or `axial_factor` is missing or makes no sense.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import skf_constants, skf_torque
-    >>> found = skf_torque(skf_constants("spherical", "240"), 1e6, 2e5, 1.3, 320e-6, 0.75, 1.09)
-    >>> [round(float(torque)) for torque in found]  # N m, rolling and sliding
-    [304, 244]
-    """
-    known = skf_series(kind)
-    check_one_of("series", series, known)
-    if not (axial_factor > 0 if kind == "tapered" else axial_factor == 0):
-        raise InputError(
-            "axial_factor: Y of a tapered bearing must be > 0, of others it is left out, "
-            f"got {axial_factor} for {kind}"
-        )
-    return SkfConstants(kind=kind, axial_factor=axial_factor, **_skf_table()[kind][series])
-
-
-def skf_series(kind: CatalogueKind) -> list[str]:
-    """Names of the series of a type that SKF's table has.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import skf_series
-    >>> skf_series("spherical")[-2:]
-    ['248', '249']
-    """
-    table = _skf_table()
-    check_one_of("kind", kind, table)
-    return [*table[kind]]
-
-
-@lru_cache(maxsize=1)
-def _skf_table() -> dict[str, dict[str, dict[str, Any]]]:
-    path = resources.files("loadflow.data") / "skf_friction.toml"
-    return dict(tomllib.loads(path.read_text(encoding="utf-8"))["series"])
-
-
-def skf_torque(
-    constants: SkfConstants,
-    radial: ArrayLike,
-    axial: ArrayLike,
-    speed: ArrayLike,
-    viscosity: ArrayLike,
-    bore: float,
-    outside_diameter: float,
-    boundary: float = 0.15,
-) -> tuple[Array, Array]:
-    """Rolling and sliding torque after SKF, N m, (4.36) without seals and drag.
-
-    Parameters
-    ----------
-    constants : SkfConstants
-        Of the series.
-    radial, axial : array_like
-        Magnitudes of the loads, N.
-    speed : array_like
-        rad/s.
-    viscosity : array_like
-        Kinematic viscosity of the (base) oil, m²/s.
-    bore, outside_diameter : float
-        m.
-    boundary : float
-        μ_bl of boundary lubrication.
-
-    Examples
-    --------
-    >>> from loadflow.rolling.friction import SkfConstants, skf_torque
-    >>> series = SkfConstants(kind="cylindrical", r1=1.54e-6, s1=0.16, s2=0.0015, geometry=5.1)
-    >>> found = skf_torque(series, 1e5, 0.0, 10.0, 320e-6, bore=0.3, outside_diameter=0.5)
-    >>> [round(float(torque)) for torque in found]  # rolling, sliding
-    [40, 1]
-    """
-    fr, fa = np.asarray(radial, float), np.asarray(axial, float)
-    n = np.abs(np.asarray(speed, float)) * _RPM
-    nu, d, big = np.asarray(viscosity, float) * 1e6, bore * 1e3, outside_diameter * 1e3
-    mean = (d + big) / 2
-    if constants.kind == "cylindrical":
-        rolling = constants.r1 * mean**2.41 * fr**0.31
-        sliding = constants.s1 * mean**0.9 * fa + constants.s2 * mean * fr
-    elif constants.kind == "tapered":
-        thrust = constants.axial_factor * fa
-        rolling = constants.r1 * mean**2.38 * (fr + constants.r2 * thrust) ** 0.31
-        sliding = constants.s1 * mean**0.82 * (fr + constants.s2 * thrust)
-    else:
-        points = constants.r1 * mean**1.85 * (fr + constants.r2 * fa) ** 0.54
-        lines = constants.r3 * mean**2.3 * (fr + constants.r4 * fa) ** 0.31
-        rolling = np.minimum(points, lines)
-        points = constants.s1 * mean**0.25 * (fr**4 + constants.s2 * fa**4) ** (1 / 3)
-        lines = constants.s3 * mean**0.94 * (fr**3 + constants.s4 * fa**3) ** (1 / 3)
-        sliding = np.minimum(points, lines)
-    heated = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
-    crowd = np.sqrt(constants.geometry / (2 * (big - d)))
-    refill = np.exp(-constants.starvation * nu * n * (d + big) * crowd)
-    dry = np.exp(-2.6e-8 * (n * nu) ** 1.4 * mean)
-    friction = dry * boundary + (1 - dry) * _SLIDING.get(constants.kind, 0.05)
-    return (
-        np.asarray(heated * refill * rolling * (nu * n) ** 0.6 * 1e-3),
-        np.asarray(sliding * friction * 1e-3),
-    )
-
-
 def catalogue_torques(
     kind: CatalogueKind,
     radial: ArrayLike,
@@ -360,12 +172,13 @@ def catalogue_torques(
     bore: float,
     outside_diameter: float,
     series: SkfConstants | None = None,
+    static_capacity: float | None = None,
 ) -> dict[str, Array]:
     """Torque after each catalogue that needs no more than type, size and load, N m.
 
     Parameters
     ----------
-    kind : {"cylindrical", "tapered", "spherical"}
+    kind : {"cylindrical", "tapered", "spherical", "deep groove", "angular contact", "four-point"}
         Type of bearing.
     radial, axial : array_like
         Magnitudes of the loads, N.
@@ -373,11 +186,13 @@ def catalogue_torques(
         As `skf_torque`.
     series : SkfConstants, optional
         Adds SKF's model; see `skf_constants`.
+    static_capacity : float, optional
+        As `skf_torque`.
 
     Returns
     -------
     dict of str to ndarray
-        "constant coefficient" (on bore and load), "palmgren", and "skf".
+        "constant coefficient" (on bore and load), of rollers "palmgren", and "skf".
 
     Examples
     --------
@@ -387,14 +202,14 @@ def catalogue_torques(
     """
     fr, fa = np.asarray(radial, float), np.asarray(axial, float)
     mean = (bore + outside_diameter) / 2
-    torques = {
-        "palmgren": palmgren_torque(kind, fr, fa, speed, viscosity, mean),
-        "constant coefficient": stribeck_torque(
-            np.hypot(fr, fa), bore, FRICTION_COEFFICIENTS[kind]
-        ),
-    }
+    torques = {}
+    if kind in PALMGREN_F1:
+        torques["palmgren"] = palmgren_torque(kind, fr, fa, speed, viscosity, mean)
+    torques["constant coefficient"] = stribeck_torque(
+        np.hypot(fr, fa), bore, FRICTION_COEFFICIENTS[kind]
+    )
     if series is not None:
-        torques["skf"] = sum(
-            skf_torque(series, fr, fa, speed, viscosity, bore, outside_diameter), np.zeros(())
-        )
+        size = bore, outside_diameter
+        parts = skf_torque(series, fr, fa, speed, viscosity, *size, static_capacity=static_capacity)
+        torques["skf"] = sum(parts, np.zeros(()))
     return torques

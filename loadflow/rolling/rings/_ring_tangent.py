@@ -235,8 +235,27 @@ def factorise(matrix, columns):
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def forward(factor, rhs):
-    """Replace `rhs` by the solution with a Cholesky factor, whose columns may have more rows."""
-    for a in range(rhs.shape[0]):
+    """Replace `rhs` by the solution with a Cholesky factor, whose columns may have more rows.
+
+    Four rows at a time, whose sums go along together.
+    """
+    size = rhs.shape[0]
+    blocks = size - size % 4
+    for a in range(0, blocks, 4):
+        one, two, three, four = factor[a], factor[a + 1], factor[a + 2], factor[a + 3]
+        t, u, v, w = rhs[a], rhs[a + 1], rhs[a + 2], rhs[a + 3]
+        for k in range(a):
+            value = rhs[k]
+            t -= value * one[k]
+            u -= value * two[k]
+            v -= value * three[k]
+            w -= value * four[k]
+        t /= one[a]
+        u = (u - two[a] * t) / two[a + 1]
+        v = (v - three[a] * t - three[a + 1] * u) / three[a + 2]
+        w = (w - four[a] * t - four[a + 1] * u - four[a + 2] * v) / four[a + 3]
+        rhs[a], rhs[a + 1], rhs[a + 2], rhs[a + 3] = t, u, v, w
+    for a in range(blocks, size):
         value = rhs[a]
         for k in range(a):
             value -= factor[a, k] * rhs[k]
@@ -245,11 +264,22 @@ def forward(factor, rhs):
 
 @njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
 def backward(factor, rhs):
-    """Replace `rhs` by the solution with a Cholesky factor transposed."""
-    for a in range(rhs.shape[0] - 1, -1, -1):
+    """Replace `rhs` by the solution with a Cholesky factor transposed, four rows at a time."""
+    size = rhs.shape[0]
+    blocks = size - size % 4
+    for a in range(size - 1, blocks - 1, -1):
         rhs[a] /= factor[a, a]
         for k in range(a):
             rhs[k] -= factor[a, k] * rhs[a]
+    for a in range(blocks - 4, -1, -4):
+        one, two, three, four = factor[a], factor[a + 1], factor[a + 2], factor[a + 3]
+        w = rhs[a + 3] / four[a + 3]
+        v = (rhs[a + 2] - four[a + 2] * w) / three[a + 2]
+        u = (rhs[a + 1] - four[a + 1] * w - three[a + 1] * v) / two[a + 1]
+        t = (rhs[a] - four[a] * w - three[a] * v - two[a] * u) / one[a]
+        rhs[a], rhs[a + 1], rhs[a + 2], rhs[a + 3] = t, u, v, w
+        for k in range(a):
+            rhs[k] -= t * one[k] + u * two[k] + v * three[k] + w * four[k]
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)

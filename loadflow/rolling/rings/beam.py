@@ -22,9 +22,10 @@ from typing import Annotated, ClassVar
 import numpy as np
 from annotated_types import Ge, Gt, Le
 
-from loadflow.errors import SolverError
+from loadflow.errors import InputError, SolverError
 from loadflow.numerics.fields import check_fields
 from loadflow.rolling.contacts import Array
+from loadflow.rolling.rings.bolts import BoltCircle
 from loadflow.rolling.rings.patches import PatchPoints
 from loadflow.rolling.rings.section import LARGEST, RingSection, Support
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
@@ -43,7 +44,7 @@ class RingBeam:
     radius, height : float
         Centroid of the section: distance from the axis, and axial position above the centre of the
         bearing, m.
-    supports : tuple of Support
+    supports : tuple of Support or BoltCircle
         What holds the ring to its structure. Without any, the ring keeps its shape free and only
         its mean rigid motion is held (the reaction is spread all round).
     elastic_modulus, poisson_ratio : float
@@ -70,7 +71,7 @@ class RingBeam:
     section: RingSection
     radius: Annotated[float, Gt(0), Le(LARGEST)]
     height: float = 0.0
-    supports: tuple[Support, ...] = ()
+    supports: tuple[Support | BoltCircle, ...] = ()
     elastic_modulus: Annotated[float, Gt(0)] = STEEL_MODULUS
     poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = STEEL_POISSON
     harmonics: Annotated[int, Ge(1), Le(400)] = 32
@@ -79,6 +80,8 @@ class RingBeam:
 
     def __post_init__(self) -> None:
         check_fields(self)
+        if any(isinstance(s, BoltCircle) and s.height == self.height for s in self.supports):
+            raise InputError("supports: bolts must clamp a face of the ring, not its centroid")
 
     def of(self, bearing: object, ring: str) -> RingBeam:
         """The ring of a bearing: its section says all."""
@@ -134,7 +137,7 @@ class RingBeam:
         theta = 2 * np.pi * np.arange(2 * self.harmonics + 2) / (2 * self.harmonics + 2)
         weight = np.full(theta.shape, 2 * np.pi / len(theta))
         stiffness = _integrate(self._strains(theta), self._elasticity(), weight)
-        for support in self.supports:
+        for support in (held.springs for held in self.supports):
             theta, weight = _quadrature(support, self.harmonics)
             springs = np.array([support.radial, support.tangential, support.axial, support.tilt])
             moved = self._motion(theta, support.radius, support.height)

@@ -125,15 +125,21 @@ class FlexibleRingForces:
         InputError
             If the ring is rigid.
         """
+        factor = self._factor(ring)
+        moved = np.einsum("kbcm,...m->...kbc", factor, self.modal_force(ring))
+        return self.modes.coupling.raceways(moved)
+
+    def modal_force(self, ring: Literal["inner", "outer"]) -> Array:
+        """Force of all contacts on the modes of a ring's `flexibility`, √(N m), (..., mode)."""
+        sign = 1.0 if ring == "outer" else -1.0
+        push = sign * self.modes.coupling.pushes(*self._state)
+        return np.einsum("...kbc,kbcm->...m", push, self._factor(ring))
+
+    def _factor(self, ring: Literal["inner", "outer"]) -> Array:
         model = self.rings.outer if ring == "outer" else self.rings.inner
         if model is None:
             raise InputError(f"ring: the {ring} ring is rigid")
-        coupling = self.modes.coupling
-        factor = model.flexibility(coupling.points(ring, self.rings))
-        sign = 1.0 if ring == "outer" else -1.0
-        push = sign * coupling.pushes(*self._state)
-        modal = np.einsum("...kbc,kbcm->...m", push, factor)
-        return coupling.raceways(np.einsum("kbcm,...m->...kbc", factor, modal))
+        return model.flexibility(self.modes.coupling.points(ring, self.rings))
 
 
 def solve_flexible(

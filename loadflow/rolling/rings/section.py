@@ -141,6 +141,11 @@ class Support:
         if self.sectors == ():
             raise InputError("sectors: must name at least one sector, or be None for all round")
 
+    @property
+    def springs(self) -> Support:
+        """Itself: of other supports the springs that they are."""
+        return self
+
     @classmethod
     def wall(
         cls,
