@@ -183,10 +183,10 @@ class AxialBearing(Section, BaseModel):
 class ThrustCollar(AxialBearing):
     """Thrust bearing beside journal bearings: a collar between two rows of pads.
 
-    It carries the force along the shaft both ways, and neither radial forces nor moments; its pads
-    are held so that they stay aligned with the collar. ``geometry`` is that of the row that carries
-    thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the collar moves
-    from one row to the other, m.
+    It carries the force along the shaft both ways, and neither radial forces nor moments; its films
+    are solved as if the pads stayed aligned with the collar. ``geometry`` is that of the row that
+    carries thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the
+    collar moves from one row to the other, m.
     """
 
     kind: Literal["thrust"] = "thrust"

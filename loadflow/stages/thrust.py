@@ -225,13 +225,12 @@ RUNGS = Rungs(
 
 
 def _left_out(scene: Scene) -> dict[str, str]:
-    """What films of pads and cones do not know."""
-    if not scene.wants("thrust"):
+    """What films of cones do not know; of collars the effects say so."""
+    if not scene.wants("thrust") or len(scene.thrust.collars) == len(scene.thrust.bearings):
         return {}
     return {
-        "thrust: motion, heat, contact": "films of pads and cones are solved at rest, at one "
+        "thrust: motion, heat, contact of cones": "their films are solved at rest, at one "
         "temperature, without asperities",
-        "thrust: tilt of the collar": "the pads of a thrust bearing follow the shaft",
     }
 
 

@@ -16,7 +16,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.situation import Film, Floats, Situation
+from loadflow.stages.effects.situation import HOLLOW, Film, Floats, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.tribology import lubricant
 from loadflow.wind.cases import load_case
@@ -28,9 +28,6 @@ STEEL = 2.1e11  # Pa
 HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 WALL = 0.1
 """Wall of the housing over the diameter of the bearing, where none is stated."""
-
-HOLLOW = 0.9
-"""Bore over diameter of a shaft as wide as the bearing, where no beam is stated."""
 
 ROUGHNESS = 1.1e-6
 """Of both surfaces of a journal bearing together, m: ground shaft, machined bearing."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import film, rolling, rotor, shaft
+from loadflow.stages.effects import film, rolling, rotor, shaft, thrust
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
@@ -22,6 +22,10 @@ EFFECTS: list[Effect] = [
     film.CONTACT,
     film.TURBULENCE,
     film.SUPPLY,
+    thrust.MOTION,
+    thrust.HEAT,
+    thrust.TILT,
+    thrust.CONTACT,
     rolling.RINGS,
     rolling.SLICED,
     rolling.CENTRIFUGAL,
