@@ -109,6 +109,12 @@ def _always_turns(scene: Scene) -> bool:
     return all(row.operating and row.events == ("none",) for row in rows)
 
 
+def _may_move(scene: Scene) -> bool:
+    """Whether a film may follow the shaft through all load cases: asperities carry it at rest."""
+    parts = map(scene.journal.at, scene.journal.bearings)
+    return _always_turns(scene) or all(part.contact is not None for part in parts)
+
+
 MOTION = Effect(
     "motion of the film",
     model="journal",
@@ -116,12 +122,12 @@ MOTION = Effect(
     is_on=lambda scene: scene.journal.in_motion,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"motion": "transient" if on else "quasi-static"})
-        if _always_turns(scene) or not on
+        if _may_move(scene) or not on
         else None
     ),
     indicator=_motion,
     out='journal.motion = "quasi-static"; the run warns where the orbit differs',
-    needs='journal.motion = "transient", of a shaft that never stands',
+    needs='journal.motion = "transient", of a shaft that never stands or has journal.contact',
 )
 
 
