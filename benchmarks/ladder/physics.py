@@ -155,9 +155,8 @@ def ten_scenes() -> dict[str, Scene]:
     small, usual, large = TURBINES
     still = {"results": ["loads.statistics", "rolling.loads"]}
     parked = {"dlc": "6.1"} | SHORT
-    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["journal"]
-    touching = {key: stop[key] for key in ("motion", "contact")}
-    events = {"results": ["journal.film"], "film": touching}
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    events = {"results": ["journal.film"], "film": {"contact": stop["contact"]}}
     soft = {"kind": "local", "compliance": 1e-11}
     return {
         "power production, 1.5 MW": scene_of(small, loads=production),
