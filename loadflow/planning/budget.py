@@ -62,7 +62,7 @@ def _peaks(table: xr.Dataset) -> xr.DataArray | None:
     """The largest of each component of the force, either way; of both components."""
     if (force := _across(table)) is None:
         return None
-    peaks = np.abs(force.sel(statistic=["min", "max"])).max(["statistic", "axis"])
+    peaks = abs(force.sel(statistic=["min", "max"])).max(["statistic", "axis"])
     return peaks.assign_attrs(force.attrs)
 
 
