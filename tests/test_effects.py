@@ -17,7 +17,7 @@ from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.stages import registry, statistics
-from loadflow.stages.effects import film
+from loadflow.stages.effects import film, rotor
 from loadflow.stages.effects import registry as effects
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
@@ -397,3 +397,30 @@ def test_elastic_rings_are_switched_on_in_every_bearing_that_has_sections(cube):
     assert [part.rings for part in on.rolling.bearings.values()] == ["rigid", "flexible"]
     off = rings.switched(on, False)
     assert [part.rings for part in off.rolling.bearings.values()] == ["rigid", "rigid"]
+
+
+def test_wind_without_coherence_of_its_lateral_parts_is_counted_and_no_plan_chooses_it():
+    def planned(**loads):
+        given = {"source": "simulate", "wind_speeds": [24.0], "seeds": 1, "duration": 60.0} | loads
+        return make_plan(
+            make_scene(
+                {"name": "wind", "loads": given, "results": ["loads.statistics"], "accuracy": 0.5}
+            )
+        )
+
+    usual, apart = planned(), planned(lateral="independent")
+    assert effect_in(usual, "coherence of lateral turbulence").kept
+    left = effect_in(apart, "coherence of lateral turbulence")
+    assert not left.kept
+    errors = [plan.errors["loads.statistics"]["bearing force DEL"] for plan in (usual, apart)]
+    assert errors[1] - errors[0] == pytest.approx(left.indicator["bearing force DEL"])
+    assert left.indicator["bearing force DEL"] == pytest.approx(rotor.COHERENCE)
+
+
+def test_the_cost_of_an_effect_of_a_film_is_that_of_its_rung_and_motion(cube):
+    def cost(**journal):
+        return film.TILT.cost(scene_of(cube, journal=journal))
+
+    assert cost(rung="reduced", motion="transient") == film.COSTS["tilt"]["reduced"][1]
+    assert cost(rung="grid") == film.COSTS["tilt"]["grid"][0]
+    assert cost(rung="map") == 1.0

@@ -10,6 +10,7 @@ from loadflow.stages.stage import Stage
 EFFECTS: list[Effect] = [
     rotor.INFLOW,
     rotor.STALL,
+    rotor.LATERAL,
     rotor.BEND_TWIST,
     rotor.TORSION,
     shaft.ELASTIC,
