@@ -20,6 +20,7 @@ from loadflow.stages import registry, statistics
 from loadflow.stages.effects import film, rotor
 from loadflow.stages.effects import registry as effects
 from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.film_costs import COSTS
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.probes import PROBES, Probe
@@ -421,6 +422,6 @@ def test_the_cost_of_an_effect_of_a_film_is_that_of_its_rung_and_motion(cube):
     def cost(**journal):
         return film.TILT.cost(scene_of(cube, journal=journal))
 
-    assert cost(rung="reduced", motion="transient") == film.COSTS["tilt"]["reduced"][1]
-    assert cost(rung="grid") == film.COSTS["tilt"]["grid"][0]
+    assert cost(rung="reduced", motion="transient") == COSTS["tilt"]["reduced"][1]
+    assert cost(rung="grid") == COSTS["tilt"]["grid"][0]
     assert cost(rung="map") == 1.0

@@ -16,6 +16,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.situation import HOLLOW, Film, Floats, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.tribology import lubricant
@@ -35,16 +36,6 @@ ROUGHNESS = 1.1e-6
 SHELL_SHARE = 0.9
 """Rise of a shell above its surroundings over that of its film, where none is stated."""
 
-COSTS = {
-    "tilt": {"reduced": (2.6, 1.8), "grid": (3.7, 5.0)},
-    "shell": {"reduced": (2.1, 1.5), "grid": (3.1, 3.1)},
-    "contact": {"reduced": (2.3, 1.6), "grid": (1.8, 1.4)},
-    "turbulence": {"reduced": (2.5, 2.7), "grid": (1.1, 1.1)},
-}
-"""Time of a film with an effect over that without, at rest and in motion, by rung: measured by
-``python -m benchmarks.references.film_effects`` and with ``--costs``; docs/journal.md. Two of them
-together cost more than their product on "grid", less on "reduced"."""
-
 MODEL_OIL = "mineral-vg-320"
 """Oil by whose law a lubricant thins of which only the viscosity is stated."""
 
@@ -59,16 +50,6 @@ def _worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.
         "maximum pressure": float(np.nanmax(pressure)),
         "friction power": power,
     }
-
-
-def _cost(name: str) -> Callable[[Scene], float]:
-    """That of `COSTS` on the rung of a scene; 1 on those that do not know the effect."""
-
-    def cost(scene: Scene) -> float:
-        journal = scene.journal
-        return COSTS[name].get(journal.rung, (1.0, 1.0))[journal.in_motion]
-
-    return cost
 
 
 def _largest(found: Sequence[Sizes]) -> Sizes:
@@ -337,7 +318,7 @@ TILT = Effect(
     indicator=_tilt,
     out="no journal.tilt: half the width of the film is solved",
     needs="journal.tilt = true, with a beam as the shaft",
-    cost=_cost("tilt"),
+    cost=cost_of("tilt"),
     rungs=("grid", "reduced"),
     own_kernels=True,
 )
@@ -370,7 +351,7 @@ SHELL = Effect(
     indicator=_shell,
     out="no journal.shell",
     needs="a table journal.shell",
-    cost=_cost("shell"),
+    cost=cost_of("shell"),
     rungs=("grid", "reduced"),
     partly=(("reduced", "a local shell"),),
     own_kernels=True,
@@ -398,7 +379,7 @@ CONTACT = Effect(
     indicator=_contact,
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
-    cost=_cost("contact"),
+    cost=cost_of("contact"),
     rungs=("grid", "reduced"),
     own_kernels=True,
 )
@@ -435,7 +416,7 @@ TURBULENCE = Effect(
     indicator=_turbulence,
     out="no journal.turbulence: the flow is laminar; the run warns where Re reaches Re_cr",
     needs="a table journal.turbulence, which may be empty",
-    cost=_cost("turbulence"),
+    cost=cost_of("turbulence"),
     rungs=("grid", "reduced"),
     own_kernels=True,
 )

@@ -99,7 +99,7 @@ def _lateral(at: Situation) -> Sizes:
     0.9 % at 18 m/s, 3.2 to 3.4 % at 24 m/s; extremes up to 1.5 times as much; docs/physics.md.
     """
     share = COHERENCE * float(np.max(at.wind_speed) / 24.0) ** 3
-    return _of_loads(1.5 * share) | {"bearing force DEL": share}
+    return {**_of_loads(1.5 * share), "bearing force DEL": share}
 
 
 LATERAL = Effect(
