@@ -99,3 +99,40 @@ def test_what_is_left_out_is_named_with_its_share_of_the_answer():
     film = next(one for one in answers(own, TABLES, {}, effects) if one.quantity == "minimum film")
     assert film.left_out == {"motion of the film": 0.2, "heat of the film": 0.1}
     assert isinstance(film, Answer)
+
+
+def _statistics(seeds):
+    """Statistics of one bearing: a force along z that scatters, one along y that swings."""
+    low, high = np.zeros((2, 3, seeds)), np.zeros((2, 3, seeds))
+    scatter = np.random.default_rng(1).gumbel(size=seeds)
+    high[0, 2], low[0, 2] = 1e6 + 1e4 * scatter, -2e5
+    swing = np.full((2, 3, seeds), 1e4)
+    swing[0, 1] = 1e5 + np.arange(seeds)
+    force = xr.DataArray(
+        np.stack([low, high, swing]),
+        {"statistic": ["min", "max", "del"], "bearing": ["N", "N2"], "axis": ["x", "y", "z"]},
+        ["statistic", "bearing", "axis", "case"],
+        attrs={"units": "N"},
+    )
+    coords = {
+        "case": [f"s{k}" for k in range(seeds)], "dlc": ("case", ["1.1"] * seeds),
+        "wind_speed": ("case", [12.0] * seeds), "length": ("case", [600.0] * seeds),
+    }  # fmt: skip
+    return xr.Dataset({"force": force}, coords), high[0, 2]
+
+
+def test_loads_have_their_extreme_their_damage_and_their_50_year_level_with_intervals():
+    table, peaks = _statistics(12)
+    scene = SCENE.model_copy(update={"results": ["loads.statistics"]})
+    errors = {"loads.statistics": {"bearing load max": 0.01, "bearing force DEL": 0.02}}
+    every = answers(scene, {"statistics": table}, errors, ())
+    found = {one.quantity: one for one in every if one.bearing == "N"}
+    assert found["bearing load max"].value == peaks.max()
+    swing = found["bearing force DEL"]
+    assert swing.value == pytest.approx(np.mean((1e5 + np.arange(12)) ** 4) ** 0.25)
+    assert swing.low < swing.value < swing.high
+    level = found["50-year load"]
+    assert peaks.max() < level.low < level.value < level.high
+    assert (level.error, level.unit) == (0.01, "N")
+    few = answers(scene, {"statistics": table.isel(case=[0, 1])}, errors, ())
+    assert "50-year load" not in {one.quantity for one in few}  # no law of two seeds

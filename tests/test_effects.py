@@ -17,9 +17,10 @@ from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.stages import registry, statistics
-from loadflow.stages.effects import film
+from loadflow.stages.effects import film, film_heat, rotor
 from loadflow.stages.effects import registry as effects
 from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.film_costs import COSTS
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.probes import PROBES, Probe
@@ -181,7 +182,7 @@ def test_a_rung_that_knows_a_part_of_an_effect_is_listed_with_that_part(
 
 def test_a_film_is_warmed_by_an_oil_that_enters_with_the_stated_viscosity(cube):
     scene = scene_of(cube, journal={"lubricant": {"viscosity": 0.07, "density": 900.0}})
-    heat = switched(scene, film.HEAT, True).journal.heat
+    heat = switched(scene, film_heat.HEAT, True).journal.heat
     assert heat.lubricant(heat.inlet_temperature).viscosity == pytest.approx(0.07, rel=0.02)
     assert heat.lubricant(heat.inlet_temperature + 20).viscosity < 0.04
 
@@ -205,17 +206,19 @@ def test_indicators_grow_with_what_they_stand_for():
     thin, thick = (
         {"journal": {"lubricant": {"viscosity": viscosity}}} for viscosity in (0.02, 0.08)
     )
-    assert size(film.HEAT, "friction power", **thick) > size(film.HEAT, "friction power", **thin)
+    assert size(film_heat.HEAT, "friction power", **thick) > size(
+        film_heat.HEAT, "friction power", **thin
+    )
     assert size(film.TILT, "minimum film", **thin) > size(film.TILT, "minimum film", **thick)
     assert size(film.CONTACT, "minimum film", **thick) == 0.0
     held, free = (
         {"journal": {"heat": {"growth": {"shell_expansion": expansion}}}}
         for expansion in (0.0, 11.7e-6)
     )
-    assert size(film.GROWTH, "minimum film", **free) == 0.0  # steel in steel, as warm
-    assert size(film.GROWTH, "minimum film", **held) > 0.1
+    assert size(film_heat.GROWTH, "minimum film", **free) == 0.0  # steel in steel, as warm
+    assert size(film_heat.GROWTH, "minimum film", **held) > 0.1
     stated = {"journal": {"heat": {}}}
-    assert 0.0 < size(film.GROWTH, "minimum film", **stated) < 0.5
+    assert 0.0 < size(film_heat.GROWTH, "minimum film", **stated) < 0.5
     worn = {"journal": {"lubricant": {"viscosity": 2e-5}}}
     assert size(film.CONTACT, "minimum film", **worn) > 0.0
     soft = {"journal": {"shell": {"kind": "local", "compliance": 1e-10}}}
@@ -415,3 +418,30 @@ def test_elastic_rings_are_switched_on_in_every_bearing_that_has_sections(cube):
     assert [part.rings for part in on.rolling.bearings.values()] == ["rigid", "flexible"]
     off = rings.switched(on, False)
     assert [part.rings for part in off.rolling.bearings.values()] == ["rigid", "rigid"]
+
+
+def test_wind_without_coherence_of_its_lateral_parts_is_counted_and_no_plan_chooses_it():
+    def planned(**loads):
+        given = {"source": "simulate", "wind_speeds": [24.0], "seeds": 1, "duration": 60.0} | loads
+        return make_plan(
+            make_scene(
+                {"name": "wind", "loads": given, "results": ["loads.statistics"], "accuracy": 0.5}
+            )
+        )
+
+    usual, apart = planned(), planned(lateral="independent")
+    assert effect_in(usual, "coherence of lateral turbulence").kept
+    left = effect_in(apart, "coherence of lateral turbulence")
+    assert not left.kept
+    errors = [plan.errors["loads.statistics"]["bearing force DEL"] for plan in (usual, apart)]
+    assert errors[1] - errors[0] == pytest.approx(left.indicator["bearing force DEL"])
+    assert left.indicator["bearing force DEL"] == pytest.approx(rotor.COHERENCE)
+
+
+def test_the_cost_of_an_effect_of_a_film_is_that_of_its_rung_and_motion(cube):
+    def cost(**journal):
+        return film.TILT.cost(scene_of(cube, journal=journal))
+
+    assert cost(rung="reduced", motion="transient") == COSTS["tilt"]["reduced"][1]
+    assert cost(rung="grid") == COSTS["tilt"]["grid"][0]
+    assert cost(rung="map") == 1.0

@@ -280,3 +280,36 @@ def test_sized_candidates_carry_the_thrust():
     kinds = [one["kind"] for one in sized["journal-thrust"]["N2"]]
     assert kinds == ["journal", "thrust"]
     assert math.isfinite(sized["journal-thrust"]["N2"][1]["play"])
+
+
+def test_a_collar_that_says_its_cells_says_them_for_all_of_its_section():
+    def scene(**collar):
+        bearings = PLACES | {"N2": [JOURNAL, COLLAR | collar]}
+        return make_scene({"name": "x", "shaft": SHAFT, "bearings": bearings})
+
+    fine = scene(grid=[40, 20])
+    assert fine.thrust.grid == fine.thrust.bearings["N2"].grid == (40, 20)
+    assert fine.thrust.bearings["M"].grid == scene().thrust.grid == (20, 10)
+    assert make_scene(tomllib.loads(fine.to_toml())) == fine
+    two = {"N": COLLAR | {"grid": [16, 8]}, "N2": COLLAR | {"grid": [40, 20]}}
+    with pytest.raises(InputError, match="collars share one grid"):
+        make_scene({"name": "x", "shaft": SHAFT, "bearings": two})
+
+
+def test_a_plan_refines_the_cells_of_a_curve_where_the_accuracy_asks_for_it(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", steps=200)
+
+    def chosen(accuracy, **collar):
+        data = {
+            "name": "fine", "loads": {"files": [str(cube)]}, "shaft": SHAFT, "accuracy": accuracy,
+            "bearings": {"N2": COLLAR | collar}, "results": ["thrust.film"],
+            "reduction": {"size": 1.0},
+        }  # fmt: skip
+        scene = make_scene(data)
+        found = choose(scene, ["loads", "shaft", "thrust"], tuple(list_cases(scene)))
+        return found.scene.thrust
+
+    assert chosen(0.05).grid == (20, 10)
+    assert (chosen(0.002).rung, chosen(0.002).grid) == ("curve", (80, 40))
+    held = chosen(0.002, grid=[40, 20])
+    assert (held.rung, held.grid) == ("curve", (40, 20))

@@ -159,7 +159,7 @@ BASES = {
     "thrust collar": {
         "shaft": {"two_point": {}}, "results": ["thrust.film"],
         "reduction": {"size": 0.02, "classes": 2},
-        "thrust": {"bearings": {"N2": {"kind": "thrust", "grid": [12, 6], "geometry": {
+        "thrust": {"grid": [12, 6], "bearings": {"N2": {"kind": "thrust", "geometry": {
             "pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
             "taper": 1e-4}}}},
     },
@@ -561,6 +561,7 @@ OTHERS = {
     "dynamics.whirl": [0.5],
     "wear.running_in.initial_roughness": [1.0000001e-6],
     "thrust.rung": ["curve"],
+    "thrust.grid": [[16, 8]],
     "thrust.bearings.N2.geometry.profile": [{"kind": "step", "height": 1e-4}],
     "….outer_groove_radius": [0.031],
     "….pivot": [{"share": 0.6}],

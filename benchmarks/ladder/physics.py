@@ -1,7 +1,8 @@
 """Which physics matters when: docs/physics.md and its figures.
 
 ``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``elements``
-that of rollers in slices, in a bearing that the scenes of ``sizes`` do not have, ``scenes`` asks
+that of rollers in slices, in a bearing that the scenes of ``sizes`` do not have, ``films`` what
+their films do not have, ``lateral`` the coherence of v and w over several seeds, ``scenes`` asks
 the plan of ten scenes what it keeps, ``runs`` makes small whole runs from the coarsest models
 to all that there is and holds their answers against the last. What is measured is kept beside the
 page in ``docs/figures/physics.json``, so that each part may be measured alone; without a part the
@@ -28,7 +29,11 @@ from loadflow.quantities import percent
 from loadflow.running.runner import run
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.candidates import machine
+from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, with_name
+from loadflow.stages.effects import film as film_effects
+from loadflow.stages.effects.rotor import LATERAL
+from loadflow.stages.probes import PROBES
 from loadflow.turbines import load_turbine
 
 KEPT = ROOT / "docs" / "figures" / "physics.json"
@@ -37,6 +42,9 @@ FIGURE = ROOT / "docs" / "figures" / "physics.svg"
 FRONT = ROOT / "docs" / "figures" / "speed-vs-error-runs.svg"
 TINY = 1e-3
 """Share below which an effect is not worth a word."""
+
+ROUNDING = 1e-9
+"""Share below which nothing has changed but the last digits."""
 
 SPEEDS = (6.0, 12.0, 18.0, 24.0)
 TURBINES = ("windpact-1.5mw", "nrel-5mw", "iea-15mw")
@@ -51,6 +59,11 @@ RESULTS = ["loads.statistics", "journal.film", "rolling.loads", "rolling.life"]
 SHORT = {"duration": 60.0, "seeds": 1}
 THOROUGH = Effort(1, 60.0)
 """Of the pilot, whose scenes here are too short for one that simulates."""
+
+STEEL = 2.1e11  # Pa
+OF_FILMS = (film_effects.CONTACT.name, film_effects.SHELL.name, film_effects.TURBULENCE.name)
+REALISED = 6
+"""Seeds of a wind speed without and with coherence of v and w."""
 
 DEFAULT = "accuracy = 0.05 (default)"
 
@@ -137,13 +150,63 @@ def elements() -> Iterator[dict[str, Any]]:
             yield {"turbine": turbine, "speed": speed, "sizes": rollers}
 
 
+def films() -> Iterator[dict[str, Any]]:
+    """Measured size of contact, shell and turbulence of films that have them, as `sizes`."""
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    for turbine in TURBINES:
+        wall = 0.1 * scene_of(turbine).journal.geometry.diameter
+        shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
+        film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
+        for speed in SPEEDS:
+            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+            results = ["journal.film"]
+            scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
+            verdict = pilot(scene, effort=THOROUGH)
+            assert verdict is not None
+            ours = {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}
+            print(turbine, speed, ours, flush=True)
+            yield {"turbine": turbine, "speed": speed, "sizes": ours}
+
+
+def lateral() -> Iterator[dict[str, Any]]:
+    """What is lost without coherence of v and w: of means over `REALISED` seeds of 120 s.
+
+    With it a seed is another wind, so that a pilot, which has one, cannot tell.
+    """
+    for turbine in TURBINES:
+        for speed in SPEEDS:
+            known, without = (
+                _means(scene_of(turbine, accuracy="given", loads={
+                    "wind_speeds": [speed], "seeds": REALISED, "duration": 120.0, "lateral": kind}))
+                for kind in ("coherent", "independent")
+            )  # fmt: skip
+            sizes: dict[str, float] = {}
+            for (bearing, quantity), value in known.items():
+                change = abs(without[bearing, quantity] / value - 1.0)
+                sizes[quantity] = max(sizes.get(quantity, 0.0), change)
+            yield {"turbine": turbine, "speed": speed, "sizes": {LATERAL.name: sizes}}
+
+
+def _means(scene: Scene) -> dict[tuple[str, str], float]:
+    """Loads by bearing and quantity, means over all cases."""
+    found = [PROBES["loads"].answers(scene, case, {}) for case in list_cases(scene)]
+    return {key: sum(one[key] for one in found) / len(found) for key in found[0]}
+
+
 def joined(kept: dict[str, Any]) -> list[dict[str, Any]]:
-    """Sizes of all effects, that of rollers in slices among them."""
-    more = {(one["turbine"], one["speed"]): one["sizes"] for one in kept.get("elements", [])}
-    return [
-        one | {"sizes": one["sizes"] | more.get((one["turbine"], one["speed"]), {})}
-        for one in kept["sizes"]
-    ]
+    """Sizes of all effects, of those among them that have a part of their own."""
+    measured = []
+    for one in kept["sizes"]:
+        place = one["turbine"], one["speed"]
+        more = {
+            name: size
+            for part in ("elements", "films", "lateral")
+            for other in kept.get(part, [])
+            if (other["turbine"], other["speed"]) == place
+            for name, size in other["sizes"].items()
+        }
+        measured.append(one | {"sizes": one["sizes"] | more})
+    return measured
 
 
 # --- ten scenes, and what the plan keeps ----------------------------------------------------------
@@ -155,9 +218,8 @@ def ten_scenes() -> dict[str, Scene]:
     small, usual, large = TURBINES
     still = {"results": ["loads.statistics", "rolling.loads"]}
     parked = {"dlc": "6.1"} | SHORT
-    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["journal"]
-    touching = {key: stop[key] for key in ("motion", "contact")}
-    events = {"results": ["journal.film"], "film": touching}
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    events = {"results": ["journal.film"], "film": {"contact": stop["contact"]}}
     soft = {"kind": "local", "compliance": 1e-11}
     return {
         "power production, 1.5 MW": scene_of(small, loads=production),
@@ -254,6 +316,8 @@ def largest(found: dict[str, float]) -> str:
     if not found:
         return "-"
     name = max(found, key=lambda one: found[one])
+    if found[name] < ROUNDING:
+        return "nothing"
     return f"{percent(found[name])} of {name}"
 
 
@@ -374,7 +438,10 @@ def draw_front(found: list[dict[str, Any]]) -> None:
     plt.close(figure)
 
 
-PARTS = {"sizes": sizes, "elements": elements, "scenes": scenes, "runs": runs}
+PARTS = {
+    "sizes": sizes, "elements": elements, "films": films, "lateral": lateral, "scenes": scenes,
+    "runs": runs,
+}  # fmt: skip
 """What is measured."""
 
 SIZES = "## Size over wind speed and turbine"

@@ -49,8 +49,8 @@ def measure_thrust(bench: Bench) -> Rungs:
                     errors.add(name.replace("_", " "), where, ours, best)
             found = errors.summary()
             entry: Entry = {
-                # the grid is each collar's own: a plan chooses the rung, and keeps it
-                **({"settings": {"rung": rung}} if grid == thrust.GRIDS[0] else {}),
+                # the coarsest grid is what a scene has that names none: one that it names stays
+                "settings": {"rung": rung} | ({"grid": grid} if grid != thrust.GRIDS[0] else {}),
                 "includes": [TABULATED[rung], f"{grid[0]}x{grid[1]} cells for each pad"],
                 "seconds_per_sample": rounded(_seconds(chosen, rung, bench.setting.repeat)),
                 "reference": f"each sample on the grid {finest[0]}x{finest[1]}",
@@ -74,11 +74,9 @@ def collar_of(scene: Scene) -> ThrustCollar:
 
 
 def at_grid(scene: Scene, rung: str, grid: tuple[int, int]) -> Scene:
-    collars = {
-        name: one.model_copy(update={"grid": grid}) for name, one in scene.thrust.collars.items()
-    }
-    chosen = scene.thrust.model_copy(update={"bearings": collars, "rung": rung})
-    return scene.model_copy(update={"thrust": chosen})
+    collars = {name: one.on_cells(grid) for name, one in scene.thrust.collars.items()}
+    changed = {"bearings": collars, "rung": rung, "grid": grid}
+    return scene.model_copy(update={"thrust": scene.thrust.model_copy(update=changed)})
 
 
 def films(

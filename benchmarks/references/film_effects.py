@@ -1,11 +1,12 @@
 """What effects cost and how far they are right on the rung "reduced", alone and all together.
 
-    python -m benchmarks.references.film_effects [STEPS]
+    python -m benchmarks.references.film_effects [STEPS] [--costs]
 
 The reference bearing of [Jonuschies 2015] under a load of two periods, 40 steps a second: processor
 time of a step over that without effects, and the largest difference from the rung "grid" with the
 same effects and cells, over the path. "rubbing" is three times the load at a
-tenth of the speed on rougher surfaces, of which asperities carry the share that is told.
+tenth of the speed on rougher surfaces, of which asperities carry the share that is told. With
+``--costs`` it is the time alone, on both rungs, at rest and in motion.
 """
 
 from __future__ import annotations
@@ -99,12 +100,41 @@ def measure(steps: int) -> None:
               flush=True)  # fmt: skip
 
 
+def costs() -> None:
+    """Print processor times over those without effects: a row for each effect and rung."""
+    rng, alone = np.random.default_rng(0), [*COMBINED][:5]
+    force = np.column_stack([rng.uniform(1e6, 3e6, RESTS), rng.uniform(-5e5, 5e5, RESTS)])
+    speed = rng.uniform(0.7, 1.3, RESTS)
+    tilt = UNIT * np.column_stack([rng.uniform(-0.2, 0.2, RESTS), rng.uniform(-0.1, 0.1, RESTS)])
+    print(head("on", "rung", "at rest", "in motion"))
+    for rung, steps in (("reduced", 200), ("grid", 40)):
+        plain: list[float] = []
+        for name in alone:
+            fields, tilts, factor = COMBINED[name]
+            film = replace(FILM, rung=rung, **fields)
+            line = {"tilt": tilt} if tilts else {}
+            still = partial(BEARING.equilibrium, force, speed, film, strict=False, **line)
+            moving = partial(path, film, tilts, factor, steps)
+            seconds = [timed(run, 3, warm=True)[1] for run in (still, moving)]
+            plain = plain or seconds
+            print(row(name, rung, *(f"{a / b:.2g}" for a, b in zip(seconds, plain))), flush=True)
+
+
+RESTS = 16
+"""Films at rest that are timed."""
+
+
 def main() -> None:
     """Measure."""
     parser = arguments(__doc__)
     parser.add_argument("steps", type=int, nargs="?", default=200, help="Steps of a path.")
+    parser.add_argument("--costs", action="store_true", help="Times alone, on both rungs.")
     warnings.simplefilter("ignore", ValidityWarning)
-    measure(parser.parse_args().steps)
+    asked = parser.parse_args()
+    if asked.costs:
+        costs()
+    else:
+        measure(asked.steps)
 
 
 if __name__ == "__main__":

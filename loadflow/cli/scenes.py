@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -108,37 +107,21 @@ def run(
         for warning in result.warnings:
             out.print(f"warning  {warning}", soft_wrap=True, markup=False)
         if profile:
-            _print_profile(result.path / "profile.json")
+            _print_profile(result.path)
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
 
 
-def _print_profile(path: Path) -> None:
+def _print_profile(folder: Path) -> None:
     """Print where the time of a run went."""
-    found = json.loads(path.read_text(encoding="utf-8"))
-    where = Table("all processes", "time, s", "share", box=None)
-    for name, row in sorted(found["where"].items(), key=lambda item: -item[1]["share"]):
-        where.add_row(name, f"{row['process_seconds']:.1f}", f"{100 * row['share']:.0f} %")
-    out.print(where)
-    phases = Table("phase", "time, s", "share", box=None)
-    for phase, row in found["phases"].items():
-        phases.add_row(phase, f"{row['wall_seconds']:.1f}", f"{100 * row['share']:.0f} %")
-    out.print(phases)
-    heads = (
-        "load cases, stage",
-        "all processes, s",
-        "share",
-        "processor, s",
-        "compiling, s",
-        "writing, s",
-    )
-    stages = Table(*heads, box=None)
-    for stage, row in found["stages_of_load_cases"].items():
-        numbers = (f"{row[key]:.1f}" for key in ("processor_seconds", "compiling", "writing"))
-        share = f"{100 * row['share']:.0f} %"
-        stages.add_row(stage, f"{row['process_seconds']:.1f}", share, *numbers)
-    out.print(stages)
+    from loadflow.running.profile_page import profile_tables
+
+    for found in profile_tables(folder):
+        table = Table(*found.heads, box=None)
+        for row in found.rows:
+            table.add_row(*row)
+        out.print(table)
 
 
 @app.command()

@@ -16,8 +16,10 @@ from loadflow.planning.effects import Estimates
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
+from loadflow.stages.statistics import SLOPE
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, Picks, bounds, drawn
+from loadflow.studies.seed_scatter import return_level
 from loadflow.studies.tolerances import Band, band_of
 
 Floats = NDArray[np.float64]
@@ -45,6 +47,34 @@ def _life(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
     return np.asarray(turns[some].sum(-1) / damage[some].sum(-1))
 
 
+def _damage_equivalent(table: xr.Dataset, values: Floats, some: Picks) -> Floats:
+    weight = np.where(np.isnan(values), 0.0, _weights(table))[some]
+    damage = np.nan_to_num(values)[some] ** SLOPE
+    return np.asarray(((weight * damage).sum(-1) / weight.sum(-1)) ** (1.0 / SLOPE))
+
+
+def _across(table: xr.Dataset) -> xr.DataArray | None:
+    """Statistics of both components of the force across the shaft, by bearing."""
+    return table["force"].sel(axis=["y", "z"]) if "force" in table else None
+
+
+def _peaks(table: xr.Dataset) -> xr.DataArray | None:
+    """The largest of each component of the force, either way; of both components."""
+    if (force := _across(table)) is None:
+        return None
+    peaks = abs(force.sel(statistic=["min", "max"])).max(["statistic", "axis"])
+    return peaks.assign_attrs(force.attrs)
+
+
+def _ranges(table: xr.Dataset) -> xr.DataArray | None:
+    """Damage-equivalent load of the component that does more damage in each bearing."""
+    if (force := _across(table)) is None:
+        return None
+    found = force.sel(statistic="del")
+    harder = (found**SLOPE).sum("case").argmax("axis")
+    return found.isel(axis=harder).assign_attrs(force.attrs)
+
+
 def _weights(table: xr.Dataset) -> Floats:
     """Share of the lifetime of each case; alike where the table does not know it."""
     weight = table["weight"].values.astype(float) if "weight" in table.coords else np.array(np.nan)
@@ -54,13 +84,25 @@ def _weights(table: xr.Dataset) -> Floats:
 
 @dataclass(frozen=True)
 class _Source:
-    """Where an answer stands in the tables of a run, and how it is read of all cases."""
+    """Where an answer stands in the tables of a run, and how it is read of all cases.
+
+    `variable` names it in the table, or finds it there; without `read` it is the load that is
+    exceeded once in 50 years, with the interval of its law. `name` is what it is called, if not as
+    the quantity whose error by models it has.
+    """
 
     result: str
     quantity: str
     stage: str
-    variable: str
-    read: Statistic
+    variable: str | Callable[[xr.Dataset], xr.DataArray | None]
+    read: Statistic | None
+    name: str = ""
+
+    def found(self, table: xr.Dataset) -> xr.DataArray | None:
+        """Its values by bearing and case; None where the table has none."""
+        if callable(self.variable):
+            return self.variable(table)
+        return table.get(self.variable)
 
 
 _SOURCES = (
@@ -76,6 +118,13 @@ _SOURCES = (
     _Source("rolling.loads", "maximum force", "rolling", "bearing_force", _largest),
     _Source("rolling.loads", "maximum pressure", "rolling", "bearing_pressure", _largest),
     _Source("rolling.life", "life", "rolling", "bearing_life", _life),
+    _Source("rolling.life", "life", "rolling", "bearing_modified_life", _life, "modified life"),
+    _Source("rolling.friction", "friction power", "friction", "mean_friction_power", _mean),
+    _Source("rolling.friction", "film parameter", "friction", "median_film_parameter", _smallest),
+    _Source("rolling.friction", "slip", "friction", "mean_slip", _mean),
+    _Source("loads.statistics", "bearing load max", "statistics", _peaks, _largest),
+    _Source("loads.statistics", "bearing force DEL", "statistics", _ranges, _damage_equivalent),
+    _Source("loads.statistics", "bearing load max", "statistics", _peaks, None, "50-year load"),
 )
 
 
@@ -166,7 +215,7 @@ def answers(
     return [
         answer
         for source in _SOURCES
-        if source.result in scene.results and source.variable in tables.get(source.stage, ())
+        if source.result in scene.results and source.stage in tables
         for answer in _of(source, scene, tables, errors, Estimates(sizes))
     ]
 
@@ -191,27 +240,45 @@ def _of(
     table = _shared(tables, source)
     groups = Groups.of(table)
     picks = drawn(groups) if max(groups.sizes, default=0) > 1 else None  # one seed tells nothing
-    found = table[source.variable].transpose("bearing", "case")
+    if (rows := source.found(table)) is None:
+        return
+    found = rows.transpose("bearing", "case")
     error = errors.get(source.result, {}).get(source.quantity)
     missing = _left_out(source, scene, known)
     for bearing in found["bearing"].values:
         values = found.sel(bearing=bearing).values.astype(float)
         if np.isnan(values).all():
             continue
-        read = partial(source.read, table, values)
-        low, high = (np.nan, np.nan) if picks is None else bounds(read(picks))
+        whole = _whole(source, table, groups, values, picks)
+        if whole is None:
+            continue
+        value, low, high = whole
         yield Answer(
             source.result,
-            source.quantity,
+            source.name or source.quantity,
             str(bearing),
             str(found.attrs.get("units", "1")),
-            float(read(np.arange(values.size))),
+            value,
             low,
             high,
             float(error) if isinstance(error, (int, float)) else None,
             missing,
             band_of(tables, source.stage, str(bearing), source.quantity),
         )
+
+
+def _whole(
+    source: _Source, table: xr.Dataset, groups: Groups, values: Floats, picks: Picks | None
+) -> tuple[float, float, float] | None:
+    """An answer of all cases and its interval; None where there are too few seeds for a law."""
+    if source.read is None:
+        length = float(np.median(table["length"].values)) if "length" in table.coords else 600.0
+        weight = _weights(table)
+        level = return_level(groups, weight / weight.sum(), values, length)
+        return None if level is None else (level.value, level.low, level.high)
+    read = partial(source.read, table, values)
+    low, high = (np.nan, np.nan) if picks is None else bounds(read(picks))
+    return float(read(np.arange(values.size))), low, high
 
 
 def _left_out(source: _Source, scene: Scene, known: Estimates) -> dict[str, float]:

@@ -38,6 +38,7 @@ from loadflow.running.folder import (
 )
 from loadflow.running.lifetime_page import lifetime_of_loads, lifetime_section
 from loadflow.running.loads_page import loads_section
+from loadflow.running.profile_page import profile_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
 from loadflow.running.wear_page import wear_section
@@ -205,6 +206,7 @@ def _sections(
         )
     if "check" in tables:
         yield _check_section(tables["check"])
+    yield from profile_section(folder)
     yield _provenance(manifest)
 
 

@@ -39,6 +39,7 @@ from loadflow.running.folder import (
 )
 from loadflow.running.lock import locked
 from loadflow.running.profile import COMPILING, LOAD_CASES, Profile
+from loadflow.running.profile_page import FILE
 from loadflow.running.report_page import write_report
 from loadflow.running.result import Run, collect
 from loadflow.running.telling import Task, times_left
@@ -93,7 +94,7 @@ def run(
     progress : callable, optional
         Called with (stage, done, total).
     profile : bool
-        Whether to write ``profile.json``: where the time went.
+        Whether to write ``profile.json``: where the time went, also in the report.
 
     Returns
     -------
@@ -235,12 +236,14 @@ def _run(
     if report:
         begun = time.perf_counter()
         say("report", 0, 1)
-        write_report(folder)
+        if profile:
+            profile.write(folder / FILE, where.workers)  # the page shows it
+        write_report(folder, again=profile is not None)
         say("report", 1, 1)
         if profile:
             profile.add_wall("report", time.perf_counter() - begun)
     if profile:
-        profile.write(folder / "profile.json", where.workers)
+        profile.write(folder / FILE, where.workers)
     log.info("finished, %d parts have no answer", len(failures))
     notes = (*scaling_note(scene), *friction_note(scene), *scene.taken)
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)

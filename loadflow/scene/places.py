@@ -125,7 +125,7 @@ def places_of(
             told = {"kind": WRITTEN.get(kind, kind), "geometry": geometry} | data
             found.setdefault(part["bearing"], []).append(told)
     axial = thrust or {"bearings": {}}
-    of_collars = {"rung": axial["rung"]} if "rung" in axial else {}
+    of_collars = {name: axial[name] for name in ("rung", "grid") if name in axial}
     for place, part in axial["bearings"].items():
         more = of_collars if part["kind"] == COLLAR else {}
         found.setdefault(place, []).append({**part, **more})

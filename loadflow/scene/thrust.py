@@ -36,6 +36,7 @@ from loadflow.scene.limits import FilmLimits
 from loadflow.scene.section import Section, told_apart
 
 Positive = Annotated[float, Field(gt=0)]
+Cells = tuple[Annotated[int, Field(ge=8, le=320)], Annotated[int, Field(ge=4, le=160)]]
 Array = NDArray[np.float64]
 
 
@@ -82,7 +83,7 @@ class AxialBearing(Section, BaseModel):
     lubricant: Lubricant = Lubricant(viscosity=0.050)
     cavitation: Law = Guembel()
     edge_pressure: Annotated[float, Field(ge=0)] = 0.1e6
-    grid: tuple[Annotated[int, Field(ge=8, le=320)], Annotated[int, Field(ge=4, le=160)]] = (20, 10)
+    grid: Cells = (20, 10)
     shaft_roughness: Positive = 1.3e-6
     shell_roughness: Positive = 2.5e-6
     boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
@@ -183,10 +184,10 @@ class AxialBearing(Section, BaseModel):
 class ThrustCollar(AxialBearing):
     """Thrust bearing beside journal bearings: a collar between two rows of pads.
 
-    It carries the force along the shaft both ways, and neither radial forces nor moments; its pads
-    are held so that they stay aligned with the collar. ``geometry`` is that of the row that carries
-    thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the collar moves
-    from one row to the other, m.
+    It carries the force along the shaft both ways, and neither radial forces nor moments; its films
+    are solved as if the pads stayed aligned with the collar. ``geometry`` is that of the row that
+    carries thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the
+    collar moves from one row to the other, m.
     """
 
     kind: Literal["thrust"] = "thrust"
@@ -238,6 +239,12 @@ class ThrustCollar(AxialBearing):
         return CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film).equilibrium(
             force[:, 2], speed
         )
+
+    def on_cells(self, grid: tuple[int, int]) -> Self:
+        """With other cells: those of all collars, and no key of its own."""
+        other = self.model_copy(update={"grid": grid})
+        other.model_fields_set.discard("grid")
+        return other
 
     def with_clearance(self, change: float) -> Self:
         """With more play, by twice the change: that of both rows."""
@@ -343,7 +350,8 @@ class Thrust(Section, BaseModel):
     """The bearings of pads on the shaft, by place.
 
     ``rung`` is how films of thrust collars are solved: each sample on the grid, or by a curve over
-    the gap that is tabulated once (docs/thrust.md).
+    the gap that is tabulated once (docs/thrust.md). ``grid`` counts the cells of each of their
+    pads, along the motion and across; written at a collar it is that of all of them.
 
     Examples
     --------
@@ -360,6 +368,38 @@ class Thrust(Section, BaseModel):
 
     bearings: dict[str, AnyAxial] = {}
     rung: Literal["grid", "curve"] = "grid"
+    grid: Cells = (20, 10)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _one_grid(cls, data: Any) -> Any:
+        parts = data.get("bearings") if isinstance(data, Mapping) else None
+        if not isinstance(parts, Mapping):
+            return data
+        own = {
+            place: one["grid"]
+            for place, one in parts.items()
+            if isinstance(one, Mapping) and one.get("kind") == "thrust" and "grid" in one
+        }
+        if not own:
+            return data
+        (first, grid), *others = own.items()
+        for place, other in others:
+            if list(other) != list(grid):
+                raise ValueError(
+                    f"bearings.{place}.grid = {other!r}: collars share one grid, and {first} has "
+                    f"{grid!r}; keep one"
+                )
+        bare = {
+            place: {k: v for k, v in one.items() if k != "grid"} if place in own else one
+            for place, one in parts.items()
+        }
+        return {**data, "bearings": bare, "grid": grid}
+
+    @model_validator(mode="after")
+    def _collars_on_it(self) -> Self:
+        self.bearings.update({name: one.on_cells(self.grid) for name, one in self.collars.items()})
+        return self
 
     @property
     def collars(self) -> dict[str, ThrustCollar]:

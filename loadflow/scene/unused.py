@@ -343,8 +343,9 @@ def _starts(dlc: str) -> bool:
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     simulated = scene.loads.source == "simulate"
     starts = any(map(_starts, scene.loads.dlcs))
-    if scene.thrust.rung != "grid" and not scene.thrust.collars:
-        yield "thrust.rung", "no bearing of this scene is a thrust collar"
+    for name in ("rung", "grid") if not scene.thrust.collars else ():
+        if name in scene.thrust.changed:
+            yield f"thrust.{name}", "no bearing of this scene is a thrust collar"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"

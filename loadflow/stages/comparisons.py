@@ -15,7 +15,8 @@ from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects.film import HEAT, MOTION
+from loadflow.stages.effects.film import MOTION
+from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
 from loadflow.stages.film_past import past_of

@@ -201,37 +201,41 @@ GRIDS = ((20, 10), (40, 20), (80, 40))
 
 
 def rung_key(scene: Scene) -> str:
-    """Rung of the collars and their grid: the finest of `GRIDS` that none of them is coarser than.
+    """Rung of the collars and their grid: the finest of `GRIDS` that theirs is not coarser than.
 
     Pairs of cones beside them, or alone, have no rung in the ladder.
     """
-    parts = scene.thrust.bearings
-    if len(scene.thrust.collars) < len(parts):
+    if len(scene.thrust.collars) < len(scene.thrust.bearings):
         return "pair of cones"
-    around, across = (
-        min((one.grid[k] for one in parts.values()), default=GRIDS[0][k]) for k in (0, 1)
-    )
+    around, across = scene.thrust.grid
     held = [grid for grid in GRIDS if grid[0] <= around and grid[1] <= across]
     around, across = held[-1] if held else (around, across)
     return f"{scene.thrust.rung}, {around}x{across}"
+
+
+def _better(scene: Scene) -> dict[str, Any]:
+    """A curve is held against its grid, a grid against the next finer one."""
+    if scene.thrust.rung == "curve":
+        return {"rung": "grid"}
+    finer = [grid for grid in GRIDS if min(np.subtract(grid, scene.thrust.grid)) > 0]
+    return {"grid": finer[0]} if finer and scene.thrust.collars else {}
 
 
 RUNGS = Rungs(
     "thrust",
     section="thrust",
     key=rung_key,
-    better=lambda scene: {"rung": "grid"} if scene.thrust.rung == "curve" else {},
+    better=_better,
 )
 
 
 def _left_out(scene: Scene) -> dict[str, str]:
-    """What films of pads and cones do not know."""
-    if not scene.wants("thrust"):
+    """What films of cones do not know; of collars the effects say so."""
+    if not scene.wants("thrust") or len(scene.thrust.collars) == len(scene.thrust.bearings):
         return {}
     return {
-        "thrust: motion, heat, contact": "films of pads and cones are solved at rest, at one "
+        "thrust: motion, heat, contact of cones": "their films are solved at rest, at one "
         "temperature, without asperities",
-        "thrust: tilt of the collar": "the pads of a thrust bearing follow the shaft",
     }
 
 

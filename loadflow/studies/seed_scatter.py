@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from loadflow.reduction import Tail, long_term_extreme
+from loadflow.reduction import LongTermExtreme, Tail, long_term_extreme
 from loadflow.reduction.extremes import gumbel_parameters
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.seed_intervals import Groups
@@ -140,10 +140,43 @@ def _of_sum(groups: Groups, weight: Floats, values: Floats) -> float:
 
 
 def _of_return(groups: Groups, weight: Floats, peaks: Floats, length: float) -> float:
-    """Of the level exceeded once in `YEARS`, by Gumbel's law of the largest of each seed."""
+    """Of the level exceeded once in `YEARS`."""
+    level = return_level(groups, weight, peaks, length)
+    if level is None:
+        return math.nan
+    least = min(some.size for some in groups.members if some.size > 2)
+    return 0.5 * (level.high - level.low) / level.value * math.sqrt(least)
+
+
+def return_level(
+    groups: Groups, weight: Floats, peaks: Floats, length: float
+) -> LongTermExtreme | None:
+    """Level exceeded once in `YEARS`, by Gumbel's law of the largest of each seed.
+
+    Parameters
+    ----------
+    groups : Groups
+        Cases that differ by their seed alone; those of three seeds or more count.
+    weight, peaks : ndarray, shape (case,)
+        Share of the lifetime of each case, and its largest value.
+    length : float
+        Of a case, s.
+
+    Returns
+    -------
+    LongTermExtreme or None
+        With its 95 % interval; None where no wind speed has three seeds.
+
+    Examples
+    --------
+    >>> groups, peaks = Groups((np.arange(4),)), np.array([1.0, 1.1, 1.05, 1.2])
+    >>> level = return_level(groups, np.ones(4), peaks, 600.0)
+    >>> level.low < level.value < level.high
+    True
+    """
     several = [some for some in groups.members if some.size > 2]
     if not several:
-        return math.nan
+        return None
     least = min(some.size for some in several)
     tails, shares = [], []
     for some in several:
@@ -153,6 +186,5 @@ def _of_return(groups: Groups, weight: Floats, peaks: Floats, length: float) -> 
             tails.append(tail)
             shares.append(float(weight[some].sum()))
     if not tails or not sum(shares) > 0:
-        return math.nan
-    level = long_term_extreme(tails, shares, YEARS)
-    return 0.5 * (level.high - level.low) / level.value * math.sqrt(least)
+        return None
+    return long_term_extreme(tails, shares, YEARS)

@@ -97,6 +97,9 @@ def test_a_log_gets_lines_the_first_of_them_at_once(tmp_path):
     assert "\x1b" not in rest  # no bars in a file
     assert "phase" in out
     assert (tmp_path / "runs/small/profile.json").exists()
+    page = (tmp_path / "runs/small/report.html").read_text(encoding="utf-8")
+    assert "Where the time went" in page
+    assert "start-up, plan" in page
 
 
 def test_the_profile_adds_up_the_processor_time_of_stages():

@@ -29,7 +29,7 @@ class Effect:
         result is moved by it if one of its links names this model.
     keys : tuple of str
         ``"section.key"`` of all settings that a user decides it by: it is open to the plan where
-        the scene names none of them.
+        the scene names none of them. Empty where no scene can have it.
     is_on : callable
         Scene → whether it is included.
     switched : callable
@@ -75,7 +75,7 @@ class Effect:
     @property
     def section(self) -> str:
         """Section of the scene that holds it."""
-        return self.keys[0].split(".")[0]
+        return self.keys[0].split(".")[0] if self.keys else self.model
 
     @property
     def known_by_words(self) -> str:

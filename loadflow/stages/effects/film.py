@@ -2,62 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable
 from typing import TypedDict
 
 import numpy as np
-from pydantic import ValidationError
 
 from loadflow.data import gains
-from loadflow.errors import InputError
-from loadflow.journal import FilmHeat, Growth, Heat, RingGrowth, Turbulence
-from loadflow.scene.journal import Journal
+from loadflow.journal import Turbulence
 from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Series, Sizes
-from loadflow.stages.effects.situation import Film, Floats, Situation
+from loadflow.stages.effects.film_costs import cost_of
+from loadflow.stages.effects.film_sizes import largest, worst
+from loadflow.stages.effects.situation import HOLLOW, Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.stage import with_settings
-from loadflow.tribology import lubricant
 from loadflow.wind.cases import load_case
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
 
 STEEL = 2.1e11  # Pa
-HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 WALL = 0.1
 """Wall of the housing over the diameter of the bearing, where none is stated."""
 
-HOLLOW = 0.9
-"""Bore over diameter of a shaft as wide as the bearing, where no beam is stated."""
-
 ROUGHNESS = 1.1e-6
 """Of both surfaces of a journal bearing together, m: ground shaft, machined bearing."""
-
-SHELL_SHARE = 0.9
-"""Rise of a shell above its surroundings over that of its film, where none is stated."""
-
-MODEL_OIL = "mineral-vg-320"
-"""Oil by whose law a lubricant thins of which only the viscosity is stated."""
-
-
-def _worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.0) -> Sizes:
-    """Largest relative changes that follow from one of the eccentricity ratio."""
-    ratio = np.minimum(film.eccentricity_ratio, 0.95)
-    gap = np.minimum(eccentricity * ratio / (1 - ratio), 1.0)
-    return {
-        "eccentricity ratio": float(np.nanmax(eccentricity)),
-        "minimum film": float(np.nanmax(gap)),
-        "maximum pressure": float(np.nanmax(pressure)),
-        "friction power": power,
-    }
-
-
-def _largest(found: Sequence[Sizes]) -> Sizes:
-    """Of all bearings, by quantity."""
-    return {name: max(sizes[name] for sizes in found) for name in found[0]}
 
 
 class _Keys(TypedDict):
@@ -100,9 +70,9 @@ def _motion(at: Situation) -> Sizes:
         change = THREE_P * (1 - left) * load.swing / np.maximum(load.radial + load.swing, 1.0)
         gain = gains()["journal"]
         found.append(
-            _worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
+            worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
         )
-    return _largest(found)
+    return largest(found)
 
 
 def _always_turns(scene: Scene) -> bool:
@@ -113,6 +83,12 @@ def _always_turns(scene: Scene) -> bool:
     return all(row.operating and row.events == ("none",) for row in rows)
 
 
+def _may_move(scene: Scene) -> bool:
+    """Whether a film may follow the shaft through all load cases: asperities carry it at rest."""
+    parts = map(scene.journal.at, scene.journal.bearings)
+    return _always_turns(scene) or all(part.contact is not None for part in parts)
+
+
 MOTION = Effect(
     "motion of the film",
     model="journal",
@@ -120,147 +96,12 @@ MOTION = Effect(
     is_on=lambda scene: scene.journal.in_motion,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"motion": "transient" if on else "quasi-static"})
-        if _always_turns(scene) or not on
+        if _may_move(scene) or not on
         else None
     ),
     indicator=_motion,
     out='journal.motion = "quasi-static"; the run warns where the orbit differs',
-    needs='journal.motion = "transient", of a shaft that never stands',
-)
-
-
-# --- heat ------------------------------------------------------------------------------------
-
-
-def _heat(at: Situation) -> Sizes:
-    """What the warming of the oil takes off its viscosity: T − T_in = P/(2 ρ c_p Q).
-
-    Adiabatic, at the mean load. The film feels load over viscosity, and its friction is nearly
-    proportional to viscosity.
-    """
-    journal, found = at.scene.journal, []
-    for name in journal.bearings:
-        film = at.film(name, share=0.0)
-        carried = 2.0 * journal.lubricant.density * HEAT_CAPACITY * film.side_flow
-        oil = lubricant(MODEL_OIL)
-        thinner = np.exp(-oil.steepness(_inlet(at.scene)) * film.friction_power / carried)
-        gain = gains()["journal"]
-        eccentricity = thinner ** -gain["eccentricity ratio"] - 1.0
-        power = float(np.nanmax(1.0 - thinner))
-        found.append(_worst(film, eccentricity, 0.3 * eccentricity, power))
-    return _largest(found)
-
-
-def _inlet(scene: Scene) -> float:
-    return (scene.journal.heat or Heat()).inlet_temperature
-
-
-def _warmed(scene: Scene, on: bool) -> Scene | None:
-    """The scene with a heat balance of each bearing, or without any."""
-    if on == (scene.journal.heat is not None):
-        return scene
-    journal = _with_heat(scene.journal, on)
-    own = {place: _with_heat(part, on) for place, part in scene.journal.own.items()}
-    if journal is None or None in own.values():
-        return None
-    return scene.model_copy(update={"journal": journal.model_copy(update={"own": own})})
-
-
-def _with_heat(journal: Journal, on: bool) -> Journal | None:
-    """A bearing with a heat balance; a stated viscosity is then that of the oil that enters."""
-    if on == (journal.heat is not None):
-        return journal
-    stated = journal.model_dump(exclude_unset=True, exclude={"own"})
-    if not on:
-        return type(journal).model_validate(stated | {"heat": None})
-    stated.pop("lubricant", None)
-    oil, cool = lubricant(MODEL_OIL), journal.lubricant
-    inlet = Heat().inlet_temperature
-    share = cool.viscosity / float(oil.viscosity(inlet))
-    thick, thin = (nu * share for nu in oil.viscosities)
-    try:
-        entering = replace(
-            oil,
-            viscosities=(thick, thin),
-            density_15=cool.density * oil.density_15 / float(oil.density(inlet)),
-            name=f"{cool.viscosity:g} Pa s at {inlet:g} K",
-            source=f"thins as {MODEL_OIL}",
-        )
-        # Walther's law does not scale: meet the stated viscosity at the inlet
-        exact = cool.viscosity / float(entering.viscosity(inlet))
-        entering = replace(entering, viscosities=(thick * exact, thin * exact))
-        return type(journal).model_validate(stated | {"heat": Heat(oil=entering)})
-    except (InputError, ValidationError):
-        return None
-
-
-HEAT = Effect(
-    "heat of the film",
-    model="journal",
-    keys=("journal.heat",),
-    is_on=lambda scene: scene.journal.heat is not None,
-    switched=_warmed,
-    indicator=_heat,
-    out="no journal.heat; the run warns where it would matter",
-    needs="a table journal.heat with the oil and the temperature at which it enters",
-)
-
-
-# --- growth of the clearance -----------------------------------------------------------------
-
-
-def _growth(at: Situation) -> Sizes:
-    """Growth of the clearance by shaft and shell as warm as their film: R α ΔT of each, over it.
-
-    The film of the heat balance, adiabatic, at the mean load. Without a growth that is stated,
-    shaft and shell are of steel, and the rise of the shell is `SHELL_SHARE` of that of the film.
-    """
-    found = []
-    for name in at.scene.journal.bearings:
-        own, film = at.scene.journal.at(name), at.film(name, share=0.0)
-        heat = own.heat or Heat()
-        carried = 2.0 * heat.lubricant(heat.inlet_temperature).density * HEAT_CAPACITY
-        warm = heat.inlet_temperature + film.friction_power / (carried * film.side_flow)
-        radius, ambient = own.geometry.radius, _surroundings(heat)
-        growth = heat.growth
-        if isinstance(growth, RingGrowth):
-            shell = np.full_like(warm, ambient) if growth.held else 0.5 * (warm + ambient)
-            cold = growth.reference_temperature
-            wider = growth.shell_expansion * (shell - cold) - growth.shaft_expansion * (warm - cold)
-            wider = radius * wider
-        else:
-            wider = (growth or Growth(shell_share=SHELL_SHARE)).radial(warm, ambient, radius)
-        share = np.minimum(np.abs(wider) / own.geometry.clearance, 1.0)
-        narrower = 1.0 - 0.5 * share  # So falls with the square of the clearance
-        eccentricity = narrower ** (-2.0 * gains()["journal"]["eccentricity ratio"]) - 1.0
-        sizes = _worst(film, eccentricity, 0.3 * eccentricity, float(np.nanmax(share)))
-        found.append({**sizes, "minimum film": float(np.nanmax(share))})
-    return _largest(found)
-
-
-def _surroundings(heat: Heat | FilmHeat) -> float:
-    """Temperature outside of shaft and shell, K."""
-    return heat.shell_temperature if isinstance(heat, FilmHeat) else heat.ambient_temperature
-
-
-def _grown(scene: Scene, on: bool) -> Scene | None:
-    """The scene with a clearance that stays; growth is there where it is stated."""
-    heat = scene.journal.heat
-    if heat is None or heat.growth is None:
-        return None if on else scene
-    return scene if on else with_settings(scene, "journal", {"heat": replace(heat, growth=None)})
-
-
-GROWTH = Effect(
-    "growth of the clearance",
-    model="journal",
-    keys=("journal.heat",),
-    is_on=lambda scene: scene.journal.heat is not None and scene.journal.heat.growth is not None,
-    switched=_grown,
-    indicator=_growth,
-    out="no journal.heat.growth: the clearance is the same at all temperatures",
-    needs="a table journal.heat.growth with the expansion of shaft and shell",
-    concerns=lambda scene: scene.journal.heat is not None,
+    needs='journal.motion = "transient", of a shaft that never stands or has journal.contact',
 )
 
 
@@ -299,7 +140,7 @@ def _tilt(at: Situation) -> Sizes:
                 "friction power": 0.04 * worst,
             }
         )
-    return _largest(found)
+    return largest(found)
 
 
 def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
@@ -322,7 +163,7 @@ TILT = Effect(
     indicator=_tilt,
     out="no journal.tilt: half the width of the film is solved",
     needs="journal.tilt = true, with a beam as the shaft",
-    cost=lambda scene: 4.0,
+    cost=cost_of("tilt"),
     rungs=("grid", "reduced"),
     own_kernels=True,
     muted=_aligned,
@@ -346,7 +187,7 @@ def _shell(at: Situation) -> Sizes:
         share = float(np.nanmax(above * compliance / film.minimum_film))
         names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
         found.append({name: min(0.25 * share, 1.0) for name in names})
-    return _largest(found)
+    return largest(found)
 
 
 SHELL = Effect(
@@ -356,7 +197,7 @@ SHELL = Effect(
     indicator=_shell,
     out="no journal.shell",
     needs="a table journal.shell",
-    cost=lambda scene: 3.0,
+    cost=cost_of("shell"),
     rungs=("grid", "reduced"),
     partly=(("reduced", "a local shell"),),
     own_kernels=True,
@@ -374,7 +215,7 @@ def _contact(at: Situation) -> Sizes:
         share = float(np.max((np.clip(4.0 - parameter, 0.0, 4.0) / 4.0) ** 6.804))
         names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
         found.append(dict.fromkeys(names, share))
-    return _largest(found)
+    return largest(found)
 
 
 CONTACT = Effect(
@@ -384,6 +225,7 @@ CONTACT = Effect(
     indicator=_contact,
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
+    cost=cost_of("contact"),
     rungs=("grid", "reduced"),
     own_kernels=True,
 )
@@ -403,8 +245,8 @@ def _turbulence(at: Situation) -> Sizes:
         thicker, _, shear = (float(factor) for factor in factors)
         eccentricity = thicker ** gains()["journal"]["eccentricity ratio"] - 1.0
         changes = np.full_like(film.eccentricity_ratio, eccentricity)
-        found.append(_worst(film, changes, 0.3 * changes, 1.0 - 1.0 / shear))
-    return _largest(found)
+        found.append(worst(film, changes, 0.3 * changes, 1.0 - 1.0 / shear))
+    return largest(found)
 
 
 TURBULENCE = Effect(
@@ -420,7 +262,7 @@ TURBULENCE = Effect(
     indicator=_turbulence,
     out="no journal.turbulence: the flow is laminar; the run warns where Re reaches Re_cr",
     needs="a table journal.turbulence, which may be empty",
-    cost=lambda scene: 2.0,
+    cost=cost_of("turbulence"),
     rungs=("grid", "reduced"),
     own_kernels=True,
 )

@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import film, rolling, rotor, shaft
+from loadflow.stages.effects import film, film_heat, rolling, rotor, shaft, thrust
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
 EFFECTS: list[Effect] = [
     rotor.INFLOW,
     rotor.STALL,
+    rotor.LATERAL,
     rotor.BEND_TWIST,
     rotor.TORSION,
     shaft.ELASTIC,
     shaft.STIFFNESS,
     film.MOTION,
-    film.HEAT,
-    film.GROWTH,
+    film_heat.HEAT,
+    film_heat.GROWTH,
     film.TILT,
     film.SHELL,
     film.CONTACT,
     film.TURBULENCE,
     film.SUPPLY,
+    thrust.MOTION,
+    thrust.HEAT,
+    thrust.TILT,
+    thrust.CONTACT,
     rolling.RINGS,
     rolling.SLICED,
     rolling.CENTRIFUGAL,

@@ -2,7 +2,8 @@
 
 For simulated loads these are closed forms: thrust after [Frandsen 2007], c_T = 7/V; the rotor's
 weight; moments that swing with the turbulence, three standard deviations either way. Given series
-are read. The film is that of the closed charts of ISO 7902.
+are read. Films of journal bearings are those of the closed charts of ISO 7902, those of thrust
+collars are solved on few cells.
 """
 
 from __future__ import annotations
@@ -13,11 +14,14 @@ from functools import cached_property
 
 import numpy as np
 
+from loadflow.errors import LoadflowError
+from loadflow.journal import DoubleThrustResult
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
-from loadflow.shaft import bearing_loads, pitch_loads, yaw_loads
-from loadflow.stages.frames import to_film
+from loadflow.shaft import Beam, Concept, bearing_loads, pitch_loads, yaw_loads
+from loadflow.shaft.beam import ShaftSection
+from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
 from loadflow.turbines import Turbine, load_turbine
 
@@ -25,6 +29,15 @@ Floats = np.ndarray
 
 SWING = 0.045
 """Standard deviation of the hub's tilt and yaw moment over ρ A R V σ_u; NREL 5 MW, 12 m/s."""
+
+SURGE = 0.5
+"""Standard deviation of the thrust over its mean, over that of the wind at a point; NREL 5 MW."""
+
+HOLLOW = 0.9
+"""Bore over diameter of a shaft as wide as the bearing, where no beam is stated."""
+
+FEW = (12, 6)
+"""Cells of a pad: the film is within 1 % of that of the finest grid."""
 
 TIP_SPEED_RATIO = 7.5
 AIR_DENSITY = 1.225  # kg/m³
@@ -46,12 +59,18 @@ class BearingLoad:
         Mean, in the frame of the cube; N, N m.
     swing, turn : ndarray, shape (n,)
         Largest deviation of radial force and tilting moment from their mean; N, N m.
+    surge : ndarray, shape (n,)
+        Largest deviation of the force along the shaft from its mean, N.
+    slope : ndarray, shape (n,)
+        Largest slope of the bent shaft where a thrust collar stands, rad; 0 elsewhere.
     """
 
     force: Floats
     moment: Floats
     swing: Floats
     turn: Floats
+    surge: Floats
+    slope: Floats
 
     @property
     def radial(self) -> Floats:
@@ -105,6 +124,27 @@ class Situation:
     def films(self) -> dict[str, Film]:
         """Films under the largest load, by bearing; those of a cylinder, whatever the bore."""
         return {name: self.film(name) for name in self.scene.journal.bearings}
+
+    @cached_property
+    def collars(self) -> dict[str, list[DoubleThrustResult | None]]:
+        """Films of the thrust collars under their largest load, by place and point.
+
+        None where no film carries it.
+        """
+        return {
+            name: [self._collar(name, k) for k in range(self.speed.size)]
+            for name in self.scene.thrust.collars
+        }
+
+    def _collar(self, name: str, point: int) -> DoubleThrustResult | None:
+        few = self.scene.thrust.collars[name].model_copy(update={"grid": FEW})
+        load = self.bearings[name]
+        force = to_rolling(load.force[point])
+        force[2] += np.copysign(load.surge[point], force[2])
+        try:
+            return few.solve(force, np.zeros(3), float(self.speed[point]))
+        except LoadflowError:
+            return None
 
     def film(self, name: str, share: float = 1.0) -> Film:
         """Film of a bearing under its mean load and a share of the largest deviation from it.
@@ -164,6 +204,10 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
         name: BearingLoad(*(np.stack(values) for values in zip(*(part[name] for part in parts))))
         for name in parts[0]
     }
+    bearings = {
+        name: replace(load, surge=DEVIATIONS * SURGE * turbulence * np.abs(load.force[:, 0]))
+        for name, load in bearings.items()
+    }
     return Situation(scene, wind, turbulence, speed, bearings)
 
 
@@ -207,6 +251,7 @@ def _on_bearings(
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
+    slopes = _slopes(scene, tilt, force, moment)
     every = [
         bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
         for concept in scene.shaft.concepts
@@ -220,7 +265,25 @@ def _on_bearings(
             one = loads.sel(bearing=name)
             push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))
             away = (np.hypot(*to_film(v - v[0]).T).max() for v in (push, turn))
-            found[str(name)] = push[0], turn[0], *map(np.asarray, away)
+            along = np.abs(push[:, 0] - push[0, 0]).max()
+            slope = slopes.get(str(name), 0.0)
+            found[str(name)] = push[0], turn[0], *map(np.asarray, (*away, along, slope))
+    return found
+
+
+def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
+    """Largest slope of the shaft, rad, at each thrust collar; bearings are rigid, and let it tilt.
+
+    Where no beam is stated, of a shaft as wide as the bore of the pads.
+    """
+    found = {}
+    for name, collar in scene.thrust.collars.items():
+        concept: Concept = next(c for c in scene.shaft.concepts if name in c.bearings)
+        wide = 2.0 * collar.geometry.inner_radius
+        beam = concept.beam or Beam((ShaftSection(wide, HOLLOW * wide),))
+        bent = replace(concept, beam=beam.on_rigid_bearings())
+        loads = bearing_loads(bent, force, moment, tilt=tilt).sel(bearing=name)
+        found[name] = float(np.hypot(*to_film(loads["tilt"].transpose(..., "axis").values).T).max())
     return found
 
 

@@ -1,0 +1,118 @@
+"""What films of thrust collars leave out is counted, by closed forms that solved films bear out."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import make_scene
+from loadflow.stages.effects import thrust
+from loadflow.stages.effects.film_heat import HEAT_CAPACITY
+from loadflow.stages.effects.situation import FEW, situation
+from loadflow.tribology import lubricant
+
+COLLAR = {
+    "kind": "thrust", "play": 6e-4,
+    "geometry": {
+        "pads": 6, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5,
+    },
+    "lubricant": {"viscosity": 0.15},
+}  # fmt: skip
+SHAFT = {"two_point": {"beam": {"sections": [{"outer_diameter": 3.0, "inner_diameter": 1.5}]}}}
+
+
+def scene_of(*wind_speeds, **more):
+    loads = {"source": "simulate", "wind_speeds": list(wind_speeds), "seeds": 1, "duration": 60.0}
+    return make_scene(
+        {
+            "name": "collar", "loads": loads, "shaft": SHAFT, "bearings": {"N2": COLLAR},
+            "results": ["thrust.film"],
+        } | more
+    )  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def at():
+    scene = scene_of(18.0)
+    return situation(scene, list_cases(scene))
+
+
+@pytest.fixture(scope="module")
+def loaded(at):
+    """Collar, thrust, speed and film of the largest load."""
+    collar = at.scene.thrust.collars["N2"].model_copy(update={"grid": FEW})
+    load = at.bearings["N2"]
+    return collar, float(load.force[0, 0] + load.surge[0]), float(at.speed[0]), at.collars["N2"][0]
+
+
+def test_heat_changes_the_film_as_the_balance_of_its_pads_does(at, loaded):
+    collar, force, speed, cold = loaded
+    steepness, warmer = float(lubricant("mineral-vg-320").steepness(thrust.ENTERING)), 0.0
+    for _ in range(20):  # halves its error in every turn
+        thin = replace(
+            collar.lubricant, viscosity=collar.lubricant.viscosity * np.exp(-steepness * warmer)
+        )
+        found = collar.model_copy(update={"lubricant": thin}).solve(
+            np.array([0.0, 0.0, force]), np.zeros(3), speed
+        )
+        row = found.front
+        rise = row.friction_power / (collar.lubricant.density * HEAT_CAPACITY * row.flow)
+        kept = thrust.CARRY_OVER * (1.0 - row.side_flow.sum() / row.flow)
+        warmer = 0.5 * (warmer + rise * (kept / (1.0 - kept) + 0.5))
+    sizes = thrust.HEAT.indicator(at)
+    thinner = 1.0 - found.minimum_film / cold.minimum_film
+    assert thinner > 0.05
+    assert sizes["minimum film"] == pytest.approx(thinner, rel=0.15)
+    less = 1.0 - found.friction_power / cold.friction_power
+    assert sizes["friction power"] == pytest.approx(less, rel=0.15)
+
+
+def test_tilt_changes_the_film_as_a_held_slope_does(at, loaded):
+    collar, force, speed, aligned = loaded
+    row, film = collar.geometry, collar.film_model
+    slope = float(at.bearings["N2"].slope[0])
+    assert slope > 0
+    turned = np.array([slope, 0.0])
+
+    def carried(gap):
+        front = row.pressure(gap, speed, film, tilt=turned)
+        return front, front.force - row.pressure(collar.play - gap, speed, film, tilt=-turned).force
+
+    least = 1.2 * slope * row.outer_radius
+    gap = brentq(lambda g: carried(g)[1] - force, least, 0.5 * collar.play, rtol=1e-6)
+    front, _ = carried(gap)
+    sizes = thrust.TILT.indicator(at)
+    thinner = 1.0 - front.minimum_film / aligned.minimum_film
+    assert sizes["minimum film"] == pytest.approx(thinner, rel=0.1)
+    more = front.maximum_pressure / aligned.maximum_pressure - 1.0
+    assert sizes["maximum pressure"] == pytest.approx(more, rel=0.5)
+
+
+def test_squeeze_takes_out_of_a_swinging_thrust_what_the_closed_form_says(at, loaded):
+    collar, force, speed, _ = loaded
+    row, film, passing, swing = collar.geometry, collar.film_model, 3.0 * speed, 0.05
+    rest = row.equilibrium(force, speed, film)
+    time = np.linspace(0.0, 3 * 2 * np.pi / passing, 91)
+    orbit = row.orbit(time, force * (1.0 + swing * np.sin(passing * time)), speed, film)
+    slow = np.ptp([row.equilibrium(force * (1.0 + s), speed, film).gap for s in (swing, -swing)])
+    left = np.ptp(orbit.gap.values[-31:]) / slow
+    closed = 1.0 / np.hypot(1.0, passing * rest.damping / rest.stiffness)
+    assert left == pytest.approx(closed, rel=0.03)
+
+
+def test_a_plan_counts_what_films_of_collars_leave_out():
+    plan = make_plan(scene_of(12.0))
+    sizes = {one.name: one.indicator for one in plan.effects if one.name.endswith("the collar")}
+    assert len(sizes) == 4
+    assert not any(one.kept for one in plan.effects if one.name in sizes)
+    left = sum(one["minimum film"] for one in sizes.values())
+    assert plan.errors["thrust.film"]["minimum film"] > left > 0.05
+    assert any(said.startswith("thrust.film: off in minimum film") for said in plan.shortfalls)
+
+
+def test_without_a_collar_there_is_nothing_to_leave_out():
+    scene = make_scene({"name": "none", "shaft": SHAFT, "results": ["loads.statistics"]})
+    assert not thrust.HEAT.concerns(scene)
