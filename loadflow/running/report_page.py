@@ -342,7 +342,7 @@ def _reductions(folder: Path, shown: list[str]) -> Iterator[Shown]:
         for bearing, data in read_part(folder, "reduction", name, _HISTOGRAM).items():
             said = f"{name}, bearing {bearing}"
             if k == 0:
-                yield Picture(figures.histograms(data), said)
+                yield Drawing(figures.histograms(data), said)
             else:
                 yield reduction_chart(data, said, True)
 
