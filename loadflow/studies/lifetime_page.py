@@ -26,7 +26,8 @@ def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[s
         for name, value in zip(COMPONENTS, loads)
     ]
     turns = float(life.duration.revolutions.sum())
-    rows.append([life.bearing, f"revolutions in {options.years:g} years", f"{turns:.5g}", "1"])
+    said = f"revolutions in {options.years:g} years"
+    rows.append([life.bearing, said, f"{turns / 1e6:.5g}", "Mrev"])
     if turns > 0:
         for p, kind in ((3.0, "balls"), (10.0 / 3.0, "rollers")):
             force = life.duration.equivalent_force(p)
