@@ -1,11 +1,14 @@
 """The ladder knows every rung that a scene can choose, and what it says still holds."""
 
+import re
+from pathlib import Path
 from typing import get_args
 
 import numpy as np
 import pytest
 import synthetic
 
+import loadflow
 from benchmarks.ladder.measuring import rung_key
 from loadflow.planning.ladder import STEPS_PER_CASE, gains, ladder
 from loadflow.planning.plan import make_plan
@@ -230,3 +233,9 @@ def test_the_page_shows_what_is_stored():
     from benchmarks.ladder.__main__ import DOC, page
 
     assert DOC.read_text(encoding="utf-8") == page(ladder(), gains())
+
+
+def test_errors_of_the_ladder_are_percentages_without_a_power_of_ten():
+    text = (Path(loadflow.__file__).parent / "data" / "ladder.json").read_text(encoding="utf-8")
+    assert " %" in text
+    assert not re.search(r"e[+-]?\d+ %", text)

@@ -46,7 +46,7 @@ def main() -> None:
         keep("report", screenshot(report, 1150, 900, "Loads", at="#loads .chart"))
         keep("orbit", orbit_of(asked.run))
         with dashboard(asked.run) as address:
-            keep("dashboard", screenshot(f"{address}?tab=2", 1050, 1150, "bearing", "picture"))
+            keep("dashboard", screenshot(f"{address}?tab=2", 1050, 890, "bearing", "picture"))
 
 
 def screenshot(address: str, width: int, height: int, *words: str, at: str = "body") -> Image.Image:
@@ -62,8 +62,9 @@ def screenshot(address: str, width: int, height: int, *words: str, at: str = "bo
             )  # fmt: skip
             await browser.open(address)
             await browser.shows(*words)
-            await browser.evaluate(f"document.querySelector('{at}').scrollIntoView()")
-            await asyncio.sleep(SETTLED)
+            for _ in range(2):  # charts are drawn when they are seen, and move what is below
+                await browser.evaluate(f"document.querySelector('{at}').scrollIntoView()")
+                await asyncio.sleep(SETTLED)
             found = await browser.call("Page.captureScreenshot", format="png")
             return base64.b64decode(found["data"])
 

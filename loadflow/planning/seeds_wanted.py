@@ -215,9 +215,11 @@ def sentences(found: Iterable[SeedsWanted]) -> list[str]:
     whose = "its own seeds" if every[0].measured else "the seeds of the main job, roughly"
     limits = " or ".join(dict.fromkeys(f"±{percent(one.wanted)}" for one in every))
     told = "; ".join(one.sentence for one in every)
+    timed = any(one.seconds is not None for one in every)
+    time = " (processor time of such a run)" if timed else ""
     said = [
-        f"interval of each answer by seeds, and seeds of each wind speed for {limits} (processor "
-        f"time of such a run), by {whose}: {told}"
+        f"interval of each answer by seeds, and seeds of each wind speed for {limits}{time}, "
+        f"by {whose}: {told}"
     ]
     more = [one.answer for one in every if one.governed_by_seeds]
     if more:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
-from loadflow.plots.style import envelope, figure, readable
+from loadflow.plots.style import Margins, envelope, figure, readable
 
 
 def film_series(samples: xr.Dataset) -> Figure:
@@ -88,7 +88,7 @@ def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
     2
     """
     down, left = np.asarray(place, dtype=float).reshape(-1, 2).T
-    drawing, axis = figure(height=4.2)
+    drawing, axis = figure(height=4.2, margins=Margins(right=0.5))
     circle = np.linspace(0, 2 * np.pi, 181)
     axis.plot(np.cos(circle), np.sin(circle), color="black", lw=1.0, label="contact")
     many = down.size > 500  # then dots, as one picture within the drawing

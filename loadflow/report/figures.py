@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullFormatter
 
 from loadflow.plots.rolling import element_forces
-from loadflow.plots.style import figure, readable
+from loadflow.plots.style import Margins, figure, readable
+from loadflow.report.heat import Cells, heat_maps
 
 
 def seed_boxes(samples: dict[str, dict[str, np.ndarray]], units: dict[str, str]) -> Figure:
@@ -60,7 +61,8 @@ def seed_spread(quantiles: dict[str, xr.DataArray]) -> Figure:
         axis.set(title=component, ylabel=unit)
         shown = np.arange(0, names.size, -(-names.size // 12))
         turn = 45 if max(map(len, names)) * shown.size > 60 else 0
-        axis.set_xticks(shown, names[shown], rotation=turn)
+        axis.set_xticks(shown, names[shown], rotation=turn, ha="right" if turn else "center")
+    drawing.set_layout_engine(Margins(bottom=1.1 if turn else 0.75))
     drawing.supxlabel(
         "thin: 1 … 99 % of the samples, thick: quartiles, dot: median", fontsize="small"
     )
@@ -113,20 +115,18 @@ def seed_spectra(spectra: dict[str, xr.DataArray], band: float) -> Figure:
     return drawing
 
 
-def histograms(reduced: xr.Dataset) -> Figure:
-    """Draw the bivariate histogram of speed and load before and after the reduction."""
-    drawing, axes = figure(1, 2, height=2.8, sharey=True)
+def histograms(reduced: xr.Dataset) -> str:
+    """Draw the bivariate histogram of speed and load before and after the reduction, as SVG."""
     speed, speed_unit = readable(reduced["speed_edges"])
     load, load_unit = readable(reduced["load_edges"])
-    for axis, name in zip(axes, ("counts_full", "counts_reduced")):
+    across = f"{reduced['load_edges'].attrs['long_name']}, {load_unit}"
+    labels = (f"speed, {speed_unit}", across, "samples in the class")
+    frames = []
+    for name in ("counts_full", "counts_reduced"):
         counts = reduced[name].values.astype(float)
-        shown = np.where(counts > 0, counts, np.nan).T
-        mesh = axis.pcolormesh(speed, load, shown, cmap="viridis", rasterized=True)
-        axis.set_title(f"{reduced[name].attrs['long_name']}: {counts.sum():.0f} samples")
-        axis.set_xlabel(f"speed, {speed_unit}")
-        drawing.colorbar(mesh, ax=axis, label="samples in the class")
-    axes[0].set_ylabel(f"{reduced['load_edges'].attrs['long_name']}, {load_unit}")
-    return drawing
+        title = f"{reduced[name].attrs['long_name']}: {counts.sum():.0f} samples"
+        frames.append(Cells(speed, load, np.where(counts > 0, counts, np.nan), labels, title))
+    return heat_maps(frames)
 
 
 def ball_ring(worst: xr.Dataset) -> Figure:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatter
 
 from loadflow.plots.style import figure, readable
+from loadflow.report.heat import Cells, heat_maps
 
 POINTS = 300  # of a sample that a probability paper shows
 
@@ -147,15 +148,13 @@ def duration(revolutions: xr.Dataset) -> Figure:
     return drawing
 
 
-def markov(matrix: xr.Dataset) -> Figure:
-    """Draw a Markov matrix, `counts` (from, to) between classes of `edges`, in colour."""
-    drawing, axis = figure(height=3.4)
+def markov(matrix: xr.Dataset) -> str:
+    """Draw a Markov matrix, `counts` (from, to) between classes of `edges`, in colour, as SVG."""
     edges, unit = readable(matrix["edges"])
-    counts = matrix["counts"].where(matrix["counts"] > 0).values
-    mesh = axis.pcolormesh(edges, edges, np.log10(counts), cmap="viridis", rasterized=True)
-    axis.set(aspect="equal", xlabel=f"to, {unit}", ylabel=f"from, {unit}")
-    drawing.colorbar(mesh, ax=axis, label="log10 of turning points")
-    return drawing
+    counts = matrix["counts"].transpose("to", "from")
+    values = np.log10(counts.where(counts > 0).values)
+    labels = (f"to, {unit}", f"from, {unit}", "log10 of turning points")
+    return heat_maps([Cells(edges, edges, values, labels, square=True)])
 
 
 def tails(found: xr.Dataset) -> Figure:

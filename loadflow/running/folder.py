@@ -12,11 +12,12 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import xarray as xr
 
 import loadflow
 from loadflow.cube import open_cube
-from loadflow.cube.hdf5 import read_groups, read_variables, read_whole
+from loadflow.cube.hdf5 import read_groups, read_values, read_whole
 from loadflow.errors import InputError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import Plan
@@ -82,7 +83,10 @@ def read_part(folder: Path, stage: str, case: str, names: Collection[str]) -> di
     return read_groups(folder / stage / f"{case}.h5", names)
 
 
-ForceOf = Callable[[str], xr.DataArray]
+Forces = dict[str, np.ndarray]
+"""Force on each bearing over axis x, y, z and time, N, in single precision."""
+
+ForceOf = Callable[[str], Forces]
 """From the name of a case to the forces on the bearings in it."""
 
 
@@ -90,8 +94,10 @@ def forces_of(folder: Path) -> ForceOf:
     """Read the forces on the bearings of each case once, however often they are asked for."""
 
     @cache
-    def force_of(case: str) -> xr.DataArray:
-        return read_variables(folder / "shaft" / f"{case}.h5", ("force",))["force"]
+    def force_of(case: str) -> Forces:
+        wanted = {"bearing": ("bearing",), "force": ("bearing", "axis", "time")}
+        found = read_values(folder / "shaft" / f"{case}.h5", wanted)
+        return dict(zip(found["bearing"].tolist(), found["force"]))
 
     return force_of
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+import numpy as np
 import xarray as xr
 
-from loadflow.cube.hdf5 import read_variables
+from loadflow.cube.hdf5 import read_values
 from loadflow.report import Section, Table
 from loadflow.report.page import Shown
 from loadflow.report.run_charts import duration_chart, exceedance_chart
@@ -93,6 +94,9 @@ def _bearings(tables: Mapping[str, xr.Dataset]) -> set[str]:
     return {str(b) for room in of if room in tables for b in tables[room]["bearing"].values}
 
 
+_OVER_TIME = ("time", "speed")
+
+
 def _series(
     folder: Path,
     table: xr.Dataset,
@@ -103,10 +107,11 @@ def _series(
     columns = (table[name].values.tolist() for name in ("case", "dlc", "wind_speed"))
     known = {case: {"dlc": dlc, "wind_speed": wind} for case, dlc, wind in zip(*columns)}
     for case in answered(folder, "shaft", shares):
-        loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
-        time, speed = loads["time"].values, loads["speed"].values.astype(float)
-        forces = force_of(case).transpose("bearing", "time", "axis")
-        for name, force in zip(forces["bearing"].values.tolist(), forces.values.astype(float)):
+        loads = read_values(folder / "loads" / f"{case}.h5", dict.fromkeys(_OVER_TIME, ("time",)))
+        time, speed = (loads[name].astype(float) for name in _OVER_TIME)
+        labels_of = known[case] | {"weight": shares[case]}
+        for name, force in force_of(case).items():
             if not wanted or name in wanted:
-                labels_of = known[case] | {"weight": shares[case]}
-                yield BearingSeries(case, name, labels_of, time, speed, force, 0.0 * force)
+                force = force.astype(float).T
+                none = np.broadcast_to(0.0, force.shape)
+                yield BearingSeries(case, name, labels_of, time, speed, force, none)

@@ -18,7 +18,7 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import fitting_unit, percent, scale_of
+from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, percent, scale_of
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
@@ -138,9 +138,14 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Tables as CSV": f"in the folder {TABLES} beside this page",
-        "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {manifest.get('workers')} processes",
+        "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {_processes(manifest)}",
         "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }
+
+
+def _processes(manifest: dict[str, Any]) -> str:
+    count = manifest.get("workers")
+    return "1 process" if count == 1 else f"{count} processes"
 
 
 def _turbine_fact(scene: Scene) -> str:
@@ -250,7 +255,10 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     limit, at = "", verdict.case
     size = largest(verdict.value, verdict.limit)
     film = verdict.unit == "m" and size < _FILMS
-    factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
+    if verdict.unit == "h" and size >= HOURS_PER_YEAR:
+        factor, unit = 1 / HOURS_PER_YEAR, "years"
+    else:
+        factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
     unit = "" if unit == "–" else unit
     zero, scale = scale_of(unit)
     if np.isfinite(verdict.limit):
@@ -275,13 +283,14 @@ def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         for name in data[kind].values.tolist() if kind in data.dims else ():
             own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
             life, modified = (
-                f"{float(own[n]):.4g}" if n in own else "-"
+                f"{float(own[n]) / HOURS_PER_YEAR:.4g}" if n in own else "-"
                 for n in ("life_hours", "modified_life_hours")
             )
             energy = own.get(f"{kind}_energy")
-            spent = "-" if energy is None else f"{float(energy) / 3.6e6:.4g}"
+            spent = "-" if energy is None else f"{float(energy) / 3.6e9:.4g}"
             rows.append([f"{kind} {name}", life, modified, spent])
-    heads = ["over all load cases", "life L10h, h", "modified life L10mh, h", "energy, kW h a year"]
+    heads = ["over all load cases", "life L10h, years", "modified life L10mh, years"]
+    heads.append("energy, MWh a year")
     yield Table("Lifetime", heads, rows)
 
 
@@ -344,7 +353,7 @@ def _reductions(folder: Path, shown: list[str]) -> Iterator[Shown]:
         for bearing, data in read_part(folder, "reduction", name, _HISTOGRAM).items():
             said = f"{name}, bearing {bearing}"
             if k == 0:
-                yield Picture(figures.histograms(data), said)
+                yield Drawing(figures.histograms(data), said)
             else:
                 yield reduction_chart(data, said, True)
 

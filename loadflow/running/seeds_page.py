@@ -96,19 +96,16 @@ def _spread(folder: Path, manifest: dict[str, Any], force_of: ForceOf) -> Iterat
         groups.setdefault(name.rsplit("_s", 1)[0], []).append(name)
     several = {group: names for group, names in groups.items() if len(names) > 1}
     found: dict[str, list[np.ndarray]] = {}
-    attrs: dict[str, Any] = {}
     for name in itertools.chain(*several.values()):
-        force = force_of(name).isel(bearing=slice(2)).sel(axis=["y", "z"])
-        attrs = force.attrs
-        series = force.transpose(..., "time").values
-        percentile = np.nanpercentile if np.isnan(series).any() else np.percentile
-        values = percentile(series, QUANTILES, axis=-1)
-        for b, bearing in enumerate(force["bearing"].values):
-            for a, axis in enumerate("yz"):
-                found.setdefault(f"{bearing} F{axis}", []).append(values[:, b, a])
+        for bearing, force in itertools.islice(force_of(name).items(), 2):
+            for axis, series in zip("yz", force[1:]):
+                percentile = np.nanpercentile if np.isnan(series).any() else np.percentile
+                found.setdefault(f"{bearing} F{axis}", []).append(percentile(series, QUANTILES))
     of = [group for group, names in several.items() for _ in names]
     quantiles = {
-        component: xr.DataArray(rows, {"group": ("case", of)}, ("case", "quantile"), attrs=attrs)
+        component: xr.DataArray(
+            rows, {"group": ("case", of)}, ("case", "quantile"), attrs={"units": "N"}
+        )
         for component, rows in found.items()
     }
     if quantiles:

@@ -351,7 +351,11 @@ def system_hours(lives: np.ndarray, slope: float) -> np.ndarray:
 
 def _extremes(samples: xr.Dataset) -> xr.Dataset:
     found = {
-        "largest_ball_force": (samples["maximum_force"].max(), "N", "largest ball force"),
+        "largest_ball_force": (
+            samples["maximum_force"].max(),
+            "N",
+            "largest force on a rolling element",
+        ),
         "largest_pressure": (samples["maximum_pressure"].max(), "Pa", "largest pressure"),
         "smallest_static_safety": (samples["static_safety"].min(), "1", "smallest static safety"),
         "smallest_pressure_safety": (

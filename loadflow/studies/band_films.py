@@ -87,7 +87,11 @@ class Deciding:
 
 
 def films_of(options: Journal, samples: xr.Dataset, near: Films | None = None) -> Films:
-    """Films of a bearing, from those of one that differs little if they are given."""
+    """Films of a bearing, from those of one that differs little if they are given.
+
+    Afresh they take 1.8 times the processor time: tilting pads of 2 m with warm oil, clearance
+    and oil a tenth off.
+    """
     answer = _at(options, samples, 1.0, None if near is None else near.answer)
     judged = _judged(samples, answer)
     thin = int(np.argmin(np.where(judged, answer.minimum_film, np.inf)))

@@ -26,19 +26,22 @@ def conclusion(judged: Sequence[Judged]) -> str:
     """
     text, good = _sentence(judged), [one for one in judged if one.holds]
     shown = [good[0], *[one for one in good if one.kind != good[0].kind][:1]] if good else []
-    risks = [f"{one.title}: {told}" for one in shown if (told := _risks(one))]
+    risks = [f"{one.title} ({told})" for one in shown if (told := _risks(one))]
     if not risks:
         return text
-    return f"{text} What fails before rating life does speaks against {'; '.join(risks)}."
+    broken = " and ".join(risks)
+    return f"{text} Rules of practice, which a rating life does not count, are broken by {broken}."
 
 
 def _risks(one: Judged) -> str:
     """Rules of thumb that a candidate breaks, which no verdict counts."""
-    rules = ((about.name, one.numbers.get(key)) for key, about in QUANTITIES.items() if about.rule)
-    return ", ".join(
-        f"{name} {number.value:.3g} {number.unit}".removesuffix(" –")
-        + f" (limit {number.limit:.3g})"
-        for name, number in rules
+    rules = ((about, one.numbers.get(key)) for key, about in QUANTITIES.items() if about.rule)
+    return "; ".join(
+        f"{about.name} {number.value:.3g} {number.unit}".removesuffix(" –")
+        + f", limit {'≤' if about.at_most else '≥'} {number.limit:.3g} {number.unit}".removesuffix(
+            " –"
+        )
+        for about, number in rules
         if number is not None and number.holds is False
     )
 

@@ -163,8 +163,8 @@ def _lifetime(
         for m, component in zip(options.exponents, equivalent)
     ]
     resultants = [np.hypot(*part.radial.T) for part in parts]
-    speed_edges = class_edges(np.concatenate([part.speed for part in parts]), options.classes)
-    force_edges = class_edges(np.concatenate(resultants), options.classes)
+    speed_edges = class_edges(_extremes([part.speed for part in parts]), options.classes)
+    force_edges = class_edges(_extremes(resultants), options.classes)
     seconds = options.years * YEAR
     durations = [
         load_duration(part.speed, part.radial, part.time, classes=(speed_edges, force_edges))
@@ -189,6 +189,11 @@ def _lifetime(
         if tails
         else None,
     )
+
+
+def _extremes(series: Sequence[np.ndarray]) -> np.ndarray:
+    """Smallest and largest value of some series: all that edges of equal classes depend on."""
+    return np.array([min(x.min() for x in series), max(x.max() for x in series)])
 
 
 def _shares(parts: Sequence[BearingSeries], options: LifetimeOptions) -> np.ndarray:
@@ -219,7 +224,7 @@ def _equivalent(part: BearingSeries, exponents: Sequence[float]) -> np.ndarray:
 
 def _markov(parts: Sequence[BearingSeries], seconds: np.ndarray, classes: int) -> MarkovMatrix:
     """Transitions of all cases, each repeated for its share of the lifetime."""
-    edges = class_edges(np.concatenate([part.radial[:, 0] for part in parts]), classes)
+    edges = class_edges(_extremes([part.radial[:, 0] for part in parts]), classes)
     counts = np.zeros((edges.size - 1, edges.size - 1))
     for part, length in zip(parts, seconds.tolist()):
         own = markov_matrix(part.radial[:, 0], edges).counts

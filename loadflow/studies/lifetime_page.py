@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.reduction import LongTermExtreme
-from loadflow.report import Picture, Section, Table, load_figures, write_page
+from loadflow.report import Drawing, Picture, Section, Table, load_figures, write_page
+from loadflow.report.page import Shown
 from loadflow.studies.lifetime import COMPONENTS, YEAR, BearingLifetime, LifetimeOptions
 
 HEADS = ("bearing", "what", "value", "unit")
@@ -25,7 +26,8 @@ def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[s
         for name, value in zip(COMPONENTS, loads)
     ]
     turns = float(life.duration.revolutions.sum())
-    rows.append([life.bearing, f"revolutions in {options.years:g} years", f"{turns:.5g}", "1"])
+    said = f"revolutions in {options.years:g} years"
+    rows.append([life.bearing, said, f"{turns / 1e6:.5g}", "Mrev"])
     if turns > 0:
         for p, kind in ((3.0, "balls"), (10.0 / 3.0, "rollers")):
             force = life.duration.equivalent_force(p)
@@ -179,7 +181,7 @@ def duration_of(life: BearingLifetime) -> xr.Dataset:
     )
 
 
-def markov_picture(life: BearingLifetime, what: str = "") -> Picture:
+def markov_picture(life: BearingLifetime, what: str = "") -> Drawing:
     """The Markov matrix in colour, folded; `what` stands before its caption."""
     matrix = xr.Dataset(
         {
@@ -188,12 +190,12 @@ def markov_picture(life: BearingLifetime, what: str = "") -> Picture:
         }
     )
     caption = f"{what}Markov matrix of Fx over the lifetime."
-    return Picture(load_figures.markov(matrix), caption, True)
+    return Drawing(load_figures.markov(matrix), caption, True)
 
 
-def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Picture]:
+def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Shown]:
     drawn = load_figures.duration(duration_of(life))
-    pictures = [
+    pictures: list[Shown] = [
         Picture(drawn, "Load duration and revolutions of the lifetime."),
         markov_picture(life),
     ]

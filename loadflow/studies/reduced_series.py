@@ -14,7 +14,7 @@ import xarray as xr
 from loadflow.cube import Cube
 from loadflow.errors import InputError
 from loadflow.reduction import histogram, phases, write_parameter_file
-from loadflow.report import Picture, Section, Table, figures, write_page
+from loadflow.report import Drawing, Section, Table, figures, write_page
 from loadflow.scene.journal import Journal
 from loadflow.stages.kept_samples import stretch
 from loadflow.stages.reduction import reduced_dataset
@@ -287,10 +287,10 @@ def write_reduction_page(path: Path, made: ReducedCube, source: str = "load cube
     facts = {"Bearing forces": made.suspension, "Pick": f"{first['pick']}, seed {first['seed']}"}
     table = Table("", list(HEADS), [as_row(part) for part in made.parts])
     pictures = [
-        Picture(figures.histograms(part.series), part.series.attrs["source"], k > 0)
+        Drawing(figures.histograms(part.series), part.series.attrs["source"], k > 0)
         for k, part in enumerate(made.parts)
     ]
-    whole = [Picture(figures.histograms(d), d.attrs["source"], False) for d in made.whole.values()]
+    whole = [Drawing(figures.histograms(d), d.attrs["source"], False) for d in made.whole.values()]
     sections = [
         Section("Series", tables=[table]),
         Section("Histograms", pictures=[*whole, *pictures]),

@@ -126,7 +126,7 @@ def _at(
     if place in rooms["rolling"]:
         bearing = scene.rolling.geometries[place]
         if bearing.takes_thrust:
-            note = f"{size} is carried by {place}, a {type(bearing).__name__}; {unjudged}"
+            note = f"{size} is carried by {place}, a {bearing.words}; {unjudged}"
             note += " (rolling.life)"
             return Located(place, force, case, time, f"rolling {place}", True, note)
         kind = f"a bearing of kind {WRITTEN.get(bearing.kind, bearing.kind)}"

@@ -360,7 +360,7 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
             yield Verdict(
                 subject, f"force along {axis} without a bearing", 0.0 if carried else value, 0.0,
                 "at most", "N", "equilibrium of the shaft", case,
-                note=f"{force} is carried by {name}, a {type(bearing).__name__}" if carried
+                note=f"{force} is carried by {name}, a {bearing.words}" if carried
                 else f"none: {force} is carried by no bearing of this arrangement",
             )  # fmt: skip
     if table.sizes["bearing"] > 1:
@@ -414,7 +414,8 @@ def _lives(
                 value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
         if kind:
             friction = scene.friction
-            note += f"; {friction.lubricant}, {friction.temperature:g} K, {friction.cleanliness}"
+            warm = friction.temperature - CELSIUS
+            note += f"; {friction.lubricant}, {warm:.4g} °C, {friction.cleanliness}"
             if (thin := float(table["bearing_thin_share"].max())) > 0:
                 note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
         yield Verdict(

@@ -320,10 +320,10 @@ def test_the_conclusion_says_which_risks_speak_against_the_best():
     )
     told = conclusion([skids, rolls])
     assert told.endswith(
-        "speaks against two barrels: smallest load over the dynamic capacity (skidding) 0.68 % "
-        "(limit 2)."
+        "broken by two barrels (smallest load over the dynamic capacity (skidding) 0.68 %, "
+        "limit ≥ 2 %)."
     )
-    assert "speaks against" not in conclusion([rolls, skids])
+    assert "broken by" not in conclusion([rolls, skids])
 
 
 @pytest.mark.parametrize(

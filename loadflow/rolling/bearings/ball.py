@@ -57,6 +57,7 @@ class BallBearing(FacingRows, BallRaceways, BearingOfBalls):
     """
 
     kind: ClassVar[str] = "ball"
+    words: ClassVar[str] = "ball bearing"
     element_inertia: ClassVar[bool] = True
 
     contact_angle: float = 0.0

@@ -202,6 +202,7 @@ class RollingBearing(RollingGeometry):
     """
 
     kind: ClassVar[str]
+    words: ClassVar[str] = "rolling bearing"
     friction_model: ClassVar[Literal["balls", "rollers"] | None] = None
     torque_models: ClassVar[Mapping[TorqueModel, float]] = MappingProxyType({})
     element_inertia: ClassVar[bool] = False

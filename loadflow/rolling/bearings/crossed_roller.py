@@ -40,6 +40,7 @@ class CrossedRollerBearing(RollerRaceways, RollingBearing):
     """
 
     kind: ClassVar[str] = "crossed"
+    words: ClassVar[str] = "crossed roller bearing"
     group_dims: ClassVar[tuple[str, ...]] = ("track",)
     rated_axially: ClassVar[bool] = True
     torque_models: ClassVar[Mapping[TorqueModel, float]] = {

@@ -62,6 +62,7 @@ class SlewingBearing(BallRaceways, BearingOfBalls):
     """
 
     kind: ClassVar[str] = "slewing"
+    words: ClassVar[str] = "four-point ball bearing"
     group_dims: ClassVar[tuple[str, ...]] = ("row", "diagonal")
     rated_axially: ClassVar[bool] = True
     flexible_rings: ClassVar[bool] = True

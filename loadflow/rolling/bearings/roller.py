@@ -49,6 +49,7 @@ class RollerBearing(FacingRows, RollerRaceways, BearingOfRollers):
     """
 
     kind: ClassVar[str] = "roller"
+    words: ClassVar[str] = "roller bearing"
     allowed_tilt: ClassVar[float | None] = math.radians(3 / 60)
     """3′ of tapered rollers, as in NREL's WISDEM (`drive_components.py`); cylindrical ones 4′."""
 

@@ -46,6 +46,7 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
     """
 
     kind: ClassVar[str] = "spherical"
+    words: ClassVar[str] = "spherical roller bearing"
     takes_moment: ClassVar[bool] = False
     allowed_tilt: ClassVar[float | None] = math.radians(1.5)
     """Of series 231, the least of the wide ones in the makers' catalogues."""

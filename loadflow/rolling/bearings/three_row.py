@@ -53,6 +53,7 @@ class ThreeRowRollerBearing(RollingBearing):
     """
 
     kind: ClassVar[str] = "three-row"
+    words: ClassVar[str] = "three-row roller bearing"
     element: ClassVar[Literal["ball", "roller"]] = "roller"
     life_exponent: ClassVar[float] = life.LINE_EXPONENT
     weibull_slope: ClassVar[float] = modified_life.WEIBULL["roller"]
