@@ -99,10 +99,7 @@ def compared(
     failures, without_place
         Of `Comparison`.
     """
-    order = sorted(
-        answers,
-        key=lambda one: (not one.holds, np.nan_to_num(one.numbers["energy"].value, nan=math.inf)),
-    )
+    order = sorted(answers, key=lambda one: one.rank)
     return Comparison(
         name=scene.name,
         conclusion=conclusion(order),

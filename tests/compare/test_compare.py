@@ -37,7 +37,7 @@ from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
-from loadflow.studies.compare_result import Judged, Number, plain
+from loadflow.studies.compare_result import THRUST, UNCARRIED, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -265,8 +265,11 @@ def test_what_carries_the_thrust_is_said(found):
     assert by_name(found)["double-row-tapered"].thrust.startswith("M")
 
 
-def test_those_that_hold_come_first_and_lose_more_and_more(found):
-    rank = [(not one.holds, one.numbers["energy"].value) for one in found.comparison.candidates]
+def test_those_that_hold_without_reservations_come_first_and_lose_more_and_more(found):
+    rank = [
+        (not one.holds, bool(one.reservations), one.numbers["energy"].value)
+        for one in found.comparison.candidates
+    ]
     assert rank == sorted(rank)
     assert found.comparison.conclusion.count(".") >= 1
 
@@ -308,22 +311,44 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
             assert (f"#{one.name}.{key}" in parser.links) == extreme, key
 
 
-def test_the_conclusion_says_which_risks_speak_against_the_best():
-    known = {"energy": Number(3.0, "MWh"), "load_factor": Number(1.6, "×", limit=1.0, holds=True)}
-    light = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
-    kept = {"minimum_load": Number(8.9, "%", limit=2.0, holds=True)}
+def judged_of(name, energy, kind="rolling", **own):
+    known = {"energy": Number(energy, "MWh"),
+             "load_factor": Number(1.6, "×", limit=1.0, holds=True)}  # fmt: skip
     about = {"source": "", "verdicts": (), "thrust": "N2", "governs": "", "change": "",
              "models": {}, "checks": [], "bearings": [], "folder": ""}  # fmt: skip
-    skids, rolls = (
-        Judged(name=name, title=name, kind="rolling", numbers=known | own, **about)
-        for name, own in (("two barrels", light), ("pair", kept))
+    numbers = known | own.pop("numbers", {})
+    return Judged(name=name, title=name, kind=kind, numbers=numbers, **about | own)
+
+
+LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
+LOOSE = Verdict("journal N2", THRUST, 964e3, 0.0, "at most", "N")
+
+
+def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline():
+    skids, rolls = judged_of("barrels", 3.0, numbers=LIGHT), judged_of("pair", 20.0)
+    bare = judged_of("bores", 47.0, "journal", verdicts=(LOOSE,))
+    collar = judged_of("collar", 109.0, "journal")
+    order = sorted([skids, bare, collar, rolls], key=lambda one: one.rank)
+    assert order == [rolls, collar, skids, bare]
+    assert all(one.holds for one in order)
+    assert conclusion(order) == (
+        "4 of 4 candidates hold their limits on these loads, of which 2 with reservations; of the "
+        "others, rolling bearings (pair) lose least, 20 MWh a year, with a capacity margin of 1.6; "
+        "the best journal bearings (collar) lose 109 MWh a year, with a capacity margin of 1.6. "
+        "Reservations: smallest load over the dynamic capacity (skidding): barrels (0.68 %, limit "
+        "2 %); and thrust that no bearing carries: bores (964 kN)."
     )
-    told = conclusion([skids, rolls])
-    assert told.endswith(
-        "speaks against two barrels: smallest load over the dynamic capacity (skidding) 0.68 % "
-        "(limit 2)."
-    )
-    assert "speaks against" not in conclusion([rolls, skids])
+    assert "Reservations" not in conclusion([rolls, collar])
+    assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
+
+
+def test_a_candidate_with_a_reservation_says_so_in_table_and_depth(found):
+    bare = by_name(found)["journal-cylindrical"]
+    assert bare.holds
+    assert UNCARRIED in bare.reservations
+    page = found.page.read_text(encoding="utf-8")
+    assert f"<small>with reservations: {'; '.join(bare.reservations)}</small>" in page
+    assert f"{bare.title}: holds, with reservations: " in page
 
 
 @pytest.mark.parametrize(
