@@ -81,11 +81,11 @@ def test_duration_and_equivalent_loads_are_those_of_the_series(page):
     cases = pd.read_csv(next(tables.glob("*bearing-n-damage*.csv")))
     share = cases["share"].str.rstrip("%").astype(float) / 100
     assert share.sum() == pytest.approx(1.0, abs=1e-4)
-    column = "Fx (down), m = 4, kN"
+    column = "Fz, m = 4, kN"
     whole = (share @ cases[column] ** 4) ** 0.25
     first = pd.read_csv(next(tables.glob("lifetime-of-the-loads.csv")))
     [told] = first[
-        (first["bearing"] == "N") & first["what"].str.startswith("DEL of Fx (down), m = 4")
+        (first["bearing"] == "N") & first["what"].str.startswith("DEL of Fz, m = 4")
     ]["value"]
     assert float(told) == pytest.approx(whole, rel=2e-3)
 

@@ -187,7 +187,7 @@ def markov_picture(life: BearingLifetime, what: str = "") -> Picture:
             "edges": ("edge", life.markov.edges, {"units": "N"}),
         }
     )
-    caption = f"{what}Markov matrix of Fx over the lifetime."
+    caption = f"{what}Markov matrix of −Fz (down) over the lifetime."
     return Picture(load_figures.markov(matrix), caption, True)
 
 
