@@ -90,6 +90,19 @@ def test_duration_and_equivalent_loads_are_those_of_the_series(page):
     assert float(told) == pytest.approx(whole, rel=2e-3)
 
 
+def test_forces_that_a_bearing_never_carries_have_no_column_but_a_note(page):
+    tables = page.parent / "tables"
+    for path in tables.glob("lifetime-of-the-loads-bearing-*-damage*.csv"):
+        ranges = pd.read_csv(path).drop(columns=["case", "share"])
+        assert ranges.any().all(), path.name
+    lives = pd.read_csv(tables / "lifetime-of-the-loads.csv")
+    assert not (lives["value"].astype(str) == "0").any()
+    text = page.read_text()
+    assert "<p>Zero in all cases: Fx of bearing N" in text  # which floats
+    assert {"journal-bearing.csv", "rolling-bearing.csv"} <= {p.name for p in tables.iterdir()}
+    assert "<p>Zero in all cases: " in text.split("<h2>Journal bearing</h2>")[1]
+
+
 def test_every_table_stands_beside_the_page_as_csv_and_no_old_one(page):
     tables = page.parent / "tables"
     old = tables / "long-gone.csv"

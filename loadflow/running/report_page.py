@@ -364,7 +364,7 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
     return [first, _case_table(data[each])]
 
 
-def _case_table(data: xr.Dataset, title: str = "") -> Table:
+def _case_table(data: xr.Dataset) -> Table:
     """One row for each case (and bearing), one column for each number that is ever not zero."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
     names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
@@ -393,10 +393,9 @@ def _case_table(data: xr.Dataset, title: str = "") -> Table:
         for b, bearing in enumerate(bearings)
     ]
     bad = frozenset(map(int, np.flatnonzero(counts.T.ravel() > 0)))
-    if empty:
-        zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
-        title = f"{title} Zero in all cases: {zero}.".strip()
-    return Table(title, ["case", *heads], rows, bad)
+    zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
+    note = f"Zero in all cases: {zero}." if zero else ""
+    return Table("", ["case", *heads], rows, bad, note=note)
 
 
 def _check_section(check: xr.Dataset) -> Section:
