@@ -112,7 +112,7 @@ def test_a_force_along_the_shaft_is_carried_by_a_rolling_bearing_and_by_no_film(
     largest = float(tables(run)["rolling"]["bearing_axial_force"].sel(bearing="N2").max())
     assert journal.value == pytest.approx(largest, rel=1e-6)
     assert rolling.holds
-    assert "carried by N2, a SphericalRollerBearing" in rolling.note
+    assert "carried by N2, a spherical bearing" in rolling.note
     assert not [v for v in run.verdicts if v.subject.endswith("N") and "along" in v.quantity]
 
 
@@ -170,11 +170,11 @@ def test_only_shafts_whose_bearings_are_solved_need_one_that_locates():
     ("here", "there", "results", "subject", "words"),
     [
         ({"kind": "journal"}, BARRELS, ["journal.film"], "rolling N2",
-         "9 kN along the shaft is carried by N2, a SphericalRollerBearing; no result of it"),
+         "9 kN along the shaft is carried by N2, a spherical bearing; no result of it"),
         ({"kind": "journal"}, COLLAR, ["journal.film"], "thrust N2", "carried by N2, a thrust"),
         (BARRELS, COLLAR, ["rolling.life"], "thrust N2", "carried by N2, a thrust"),
         ({"kind": "journal"}, ROLLERS, ["journal.film"], "",
-         "a bearing of kind roller stands there, which carries no thrust"),
+         "a roller bearing stands there, which carries no thrust"),
         (BARRELS, {"kind": "journal"}, ["rolling.life"], "",
          "a journal bearing stands there, which carries no thrust"),
     ],

@@ -17,6 +17,7 @@ from loadflow.rolling.rating.static import (
 )
 from loadflow.scene.journal import Journal
 from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
+from loadflow.scene.places import kind_words
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.uncarried import SLIGHT, has_collar, uncarried
@@ -354,7 +355,7 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
             yield Verdict(
                 subject, f"force along {axis} without a bearing", 0.0 if carried else value, 0.0,
                 "at most", "N", "equilibrium of the shaft", case,
-                note=f"{force} is carried by {name}, a {type(bearing).__name__}" if carried
+                note=f"{force} is carried by {name}, {kind_words(bearing.kind)}" if carried
                 else f"none: {force} is carried by no bearing of this arrangement",
             )  # fmt: skip
     if table.sizes["bearing"] > 1:
@@ -408,7 +409,8 @@ def _lives(
                 value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
         if kind:
             friction = scene.friction
-            note += f"; {friction.lubricant}, {friction.temperature:g} K, {friction.cleanliness}"
+            warm = f"{friction.temperature - CELSIUS:.0f} °C"
+            note += f"; {friction.lubricant}, {warm}, {friction.cleanliness}"
             if (thin := float(table["bearing_thin_share"].max())) > 0:
                 note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
         yield Verdict(
