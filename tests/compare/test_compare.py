@@ -21,7 +21,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
-from loadflow.report.compare_page import _row
+from loadflow.report.compare_page import _row, write_comparison
 from loadflow.report.sketch import sketch
 from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
@@ -37,7 +37,7 @@ from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
-from loadflow.studies.compare_result import THRUST, UNCARRIED, Judged, Number, plain
+from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -359,6 +359,25 @@ def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     data = {"quantities": named_quantities()}
     _, _, [cell] = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
     assert cell.limit == said
+
+
+def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_why(tmp_path):
+    def candidate(name, **numbers):
+        return judged_of(name, 3.0, "journal", numbers=numbers)
+
+    idle, lawless = Number(0.0, "kW", note="fed without pressure"), "n/a: wear.law: needs a law"
+    shut = Number(0.0, "µm", limit=1.0, holds=False)
+    one = candidate("one", pump=idle, wear=Number(math.nan, "µm", note=lawless), minimum_film=shut)
+    two = candidate("two", pump=idle, wear=Number(math.nan, "µm", note="n/a: no film bearing"),
+                    minimum_film=shut)  # fmt: skip
+    both = Comparison("c", "", (one, two), {}, [], {}, [])
+    page = write_comparison(tmp_path / "c.html", both.as_dict()).read_text(encoding="utf-8")
+    told = page.split("Left out, as no candidate has a number above 0: ")[1].split("</p>")[0]
+    pump, worn, film = (QUANTITIES[key].name for key in ("pump", "wear", "minimum_film"))
+    assert f"{pump} (0 throughout; fed without pressure)" in told
+    assert f"{worn} (wear.law: needs a law)" in told
+    assert f'<th scope="row">{pump}' not in page
+    assert f'<th scope="row">{film}' in page  # 0 breaks its limit
 
 
 def test_the_table_and_the_json_hold_the_same_numbers(found):
