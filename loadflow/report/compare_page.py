@@ -47,6 +47,9 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     candidates = data["candidates"]
     groups: dict[str, list[Any]] = {}
     silent = []
+    behind: dict[str, list[str]] = {}
+    for one in candidates:
+        behind.setdefault(one["references"], []).append(one["title"])
     for key, about in data["quantities"].items():
         rows = groups.setdefault(about["group"], [])
         if (row := _row(key, data)) is None:
@@ -61,6 +64,7 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         data=data,
         groups=groups.items(),
         silent=silent,
+        behind=behind.items(),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},

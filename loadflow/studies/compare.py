@@ -25,7 +25,7 @@ from loadflow.studies.compare_margins import (
     margin_of,
     row_shares,
 )
-from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
     Comparison,
@@ -179,7 +179,8 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
     ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
-    yield "eccentricity_ratio", _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
+    ratio = with_wide_bore(_against(ratio, verdicts, "eccentricity ratio ε", 1.0))
+    yield "eccentricity_ratio", ratio
     name, model = "largest_pressure", "maximum pressure"
     pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)

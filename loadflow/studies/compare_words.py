@@ -150,7 +150,7 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                     "kind": f"journal, {size.shape.kind}",
                     "measures": f"D {1e3 * size.diameter:.0f} × B {1e3 * size.width:.0f} mm, "
                     f"clearance {1e3 * size.relative_clearance:.2f} ‰, "
-                    f"{part.lubricant.viscosity:.3g} Pa s",
+                    f"{1e3 * part.lubricant.viscosity:.3g} mPa s",
                 }
             )
     if "thrust" in rooms:

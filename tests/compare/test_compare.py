@@ -35,7 +35,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
@@ -185,6 +185,22 @@ def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_rati
     found = clearance_used(Number(50.0, "µm", 40.0, 60.0), scene.thrust.bearings["M"])
     assert (found.value, found.low, found.high) == pytest.approx((0.75, 0.7, 0.8))
     assert (found.unit, found.limit != found.limit, found.holds) == ("–", True, None)
+
+
+def test_an_eccentricity_ratio_above_1_says_why_there_is_a_film_and_others_nothing():
+    assert "preloaded lobes and pads leave more" in with_wide_bore(Number(1.11)).note
+    assert with_wide_bore(Number(0.9)).note == ""
+
+
+def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
+    page = found.page.read_text(encoding="utf-8")
+    told = {one.references: [] for one in found.comparison.candidates}
+    for one in found.comparison.candidates:
+        told[one.references].append(one.title)
+    assert len(told) == 2  # of journal and of rolling bearings
+    for text, titles in told.items():
+        assert page.count(text) == 1
+        assert f"behind the models of {'; '.join(titles)}: {text}" in page
 
 
 def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_start_rubs():
