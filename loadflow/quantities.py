@@ -40,6 +40,7 @@ READABLE = {
     "N m": (1e-6, "MN m"),
     "Pa": (1e-6, "MPa"),
     "W": (1e-3, "kW"),
+    "h": (1 / HOURS_PER_YEAR, "years"),
     "rad/s": (30 / math.pi, "1/min"),
     "rad": (180 / math.pi, "°"),
     "m^3/s": (6e4, "l/min"),
@@ -59,6 +60,7 @@ _SMALLER = {
     "N m": ((1e-3, "kN m"), (1.0, "N m")),
     "Pa": ((1e-3, "kPa"), (1.0, "Pa")),
     "W": ((1.0, "W"),),
+    "h": ((1.0, "h"),),
     "m": ((1e3, "mm"), (1e6, "µm")),
 }
 """Smaller units than those of `READABLE`, in order."""

@@ -6,6 +6,7 @@ import json
 import numpy as np
 import pandas as pd
 import pytest
+import xarray as xr
 from synthetic import case, cube_file
 from typer.testing import CliRunner
 
@@ -22,6 +23,7 @@ from loadflow.journal import (
     rotor_coefficients,
 )
 from loadflow.planning.plan import make_plan
+from loadflow.running.dynamics_page import dynamics_section
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, Disc, LineSupport, ShaftLine, ShaftSection, modes
 from loadflow.stages import dynamics, shaft
@@ -295,3 +297,12 @@ def test_the_command_line_writes_the_table_of_a_rolling_bearing(tmp_path):
     assert wet["kxx"] < dry["kxx"] == lossy["kxx"]
     for wrong in ([], ["--speed-rpm=6", "--hardness=600"], ["--speed-rpm=6", "--loss=2"]):
         assert isinstance(CliRunner().invoke(app, [*line, *wrong]).exception, InputError)
+
+
+def test_the_page_tells_stiffness_in_the_frame_of_the_shaft_whose_z_points_up():
+    dims, entries = ("case", "bearing", "dof", "along"), [[[[1e9, 2e9], [3e9, 4e9]]]]
+    coords = {"case": ["one"], "bearing": ["N"], "dof": ["x", "y"], "along": ["x", "y"]}
+    data = xr.Dataset({"stiffness": (dims, entries), "damping": (dims, entries)}, coords)
+    [table] = dynamics_section(data).tables
+    assert table.heads[1:5] == ["K zz, GN/m", "K zy, GN/m", "K yz, GN/m", "K yy, GN/m"]
+    assert table.rows[0][1:5] == ["1", "-2", "-3", "4"]

@@ -165,7 +165,7 @@ def test_the_report_ranks_ultimate_loads_with_their_safety_factors(tmp_path):
     }
     page = run.report.read_text(encoding="utf-8")
     assert "Ultimate loads" in page
-    row = page.split("Ultimate loads")[1].split("hub force x")[1].split("</tr>")[0]
+    row = page.split("Ultimate loads")[1].split("hub Fx")[1].split("</tr>")[0]
     assert max(design, key=design.get) in row
     assert f"{max(design.values()) / 1e3:.4g}" in row
 

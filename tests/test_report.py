@@ -22,7 +22,8 @@ from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed
 from loadflow.running.answers_page import answer_row
-from loadflow.running.report_page import _spread, _verdict_table, report_is_current, write_report
+from loadflow.running.report_page import _spread, _took, report_is_current, write_report
+from loadflow.running.verdicts_page import verdict_sentence, verdict_table
 from loadflow.scene.scene import make_scene
 from loadflow.studies.tolerances import Band
 from loadflow.verdict import Verdict, to_dataset
@@ -81,13 +82,26 @@ def test_duration_and_equivalent_loads_are_those_of_the_series(page):
     cases = pd.read_csv(next(tables.glob("*bearing-n-damage*.csv")))
     share = cases["share"].str.rstrip("%").astype(float) / 100
     assert share.sum() == pytest.approx(1.0, abs=1e-4)
-    column = "Fx (down), m = 4, kN"
+    column = "Fz, m = 4, kN"
     whole = (share @ cases[column] ** 4) ** 0.25
     first = pd.read_csv(next(tables.glob("lifetime-of-the-loads.csv")))
-    [told] = first[
-        (first["bearing"] == "N") & first["what"].str.startswith("DEL of Fx (down), m = 4")
-    ]["value"]
+    [told] = first[(first["bearing"] == "N") & first["what"].str.startswith("DEL of Fz, m = 4")][
+        "value"
+    ]
     assert float(told) == pytest.approx(whole, rel=2e-3)
+
+
+def test_forces_that_a_bearing_never_carries_have_no_column_but_a_note(page):
+    tables = page.parent / "tables"
+    for path in tables.glob("lifetime-of-the-loads-bearing-*-damage*.csv"):
+        ranges = pd.read_csv(path).drop(columns=["case", "share"])
+        assert ranges.any().all(), path.name
+    lives = pd.read_csv(tables / "lifetime-of-the-loads.csv")
+    assert not (lives["value"].astype(str) == "0").any()
+    text = page.read_text()
+    assert "<p>Zero in all cases: Fx of bearing N" in text  # which floats
+    assert {"journal-bearing.csv", "rolling-bearing.csv"} <= {p.name for p in tables.iterdir()}
+    assert "<p>Zero in all cases: " in text.split("<h2>Journal bearing</h2>")[1]
 
 
 def test_every_table_stands_beside_the_page_as_csv_and_no_old_one(page):
@@ -268,10 +282,32 @@ async def until_true(browser, code, seconds=30):
 def test_films_of_verdicts_stand_in_micrometres_and_ratios_without_a_unit():
     film = Verdict("journal N", "smallest film", 1.857e-4, 1.38e-5, "at least", "m")
     ratio = Verdict("journal N", "eccentricity ratio ε", 0.75, 0.95, "at most")
-    table = to_dataset([film, ratio])
-    [shown] = _verdict_table({"verdicts": table})
+    life = Verdict("rolling M", "rating life L10h", 20 * 8766.0, 10 * 8766.0, "at least", "h")
+    table = to_dataset([film, ratio, life])
+    [shown] = verdict_table({"verdicts": table})
     assert shown.rows[0][2:5] == ["185.7 µm", "≥ 13.8 µm", "171.9 µm"]
     assert shown.rows[1][2:5] == ["0.75", "≤ 0.95", "0.2"]
+    assert shown.rows[2][2:5] == ["20 years", "≥ 10 years", "10 years"]
+
+
+def test_the_report_begins_with_how_many_limits_hold_and_which_do_not(page):
+    kept = Verdict("journal N", "eccentricity ratio ε", 0.75, 0.95, "at most")
+    film = Verdict("journal N", "smallest film", 1e-5, 1.38e-5, "at least", "m")
+    lost = Verdict("rolling M", "static safety", np.nan, 1.0, "at least")
+    told = Verdict("rolling M", "largest force", 1e5, np.nan, "at most", "N")
+    said = verdict_sentence({"verdicts": to_dataset([kept, film, lost, told])})
+    assert said == (
+        "1 of 3 limits hold; broken: smallest film (journal N, 10 µm, limit ≥ 13.8 µm); "
+        "not answered: static safety (rolling M)."
+    )
+    assert verdict_sentence({"verdicts": to_dataset([kept])}) == "1 of 1 limits hold."
+    overview = page.read_text().split("<h2>Overview</h2>")[1]
+    assert re.match(r"\s*<p>\d+ of \d+ limits hold", overview)
+
+
+def test_what_a_run_took_is_told_in_minutes_where_it_is_long():
+    assert _took({"wall_seconds": 1618.0, "workers": 1}) == "27 min with 1 process"
+    assert _took({"wall_seconds": 40.0, "workers": 2}) == "40 s with 2 processes"
 
 
 def test_a_long_series_is_drawn_with_its_extremes():

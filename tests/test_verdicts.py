@@ -174,7 +174,7 @@ def test_only_shafts_whose_bearings_are_solved_need_one_that_locates():
         ({"kind": "journal"}, COLLAR, ["journal.film"], "thrust N2", "carried by N2, a thrust"),
         (BARRELS, COLLAR, ["rolling.life"], "thrust N2", "carried by N2, a thrust"),
         ({"kind": "journal"}, ROLLERS, ["journal.film"], "",
-         "a bearing of kind roller stands there, which carries no thrust"),
+         "a roller bearing stands there, which carries no thrust"),
         (BARRELS, {"kind": "journal"}, ["rolling.life"], "",
          "a journal bearing stands there, which carries no thrust"),
     ],

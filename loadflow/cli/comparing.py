@@ -77,7 +77,7 @@ def compare(
         rows = [
             (
                 one.name,
-                "hold" if one.holds else "broken",
+                ("hold, but" if one.reservations else "hold") if one.holds else "broken",
                 f"{one.numbers['load_factor'].value:.3g} ×",
                 one.governs,
                 f"{one.numbers['energy'].value:.3g}",

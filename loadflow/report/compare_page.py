@@ -46,15 +46,25 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     """
     candidates = data["candidates"]
     groups: dict[str, list[Any]] = {}
+    silent = []
+    behind: dict[str, list[str]] = {}
+    for one in candidates:
+        behind.setdefault(one["references"], []).append(one["title"])
     for key, about in data["quantities"].items():
         rows = groups.setdefault(about["group"], [])
-        if (row := _row(key, data)) is not None:
+        if (row := _row(key, data)) is None:
+            continue
+        if (why := _tells_nothing(key, data)) is None:
             rows.append(row)
+        else:
+            silent.append(f"{about['name']} ({why})")
     return write_filled(
         path,
         "compare.html",
         data=data,
         groups=groups.items(),
+        silent=silent,
+        behind=behind.items(),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
@@ -71,6 +81,17 @@ def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | Non
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
+
+
+def _tells_nothing(key: str, data: Mapping[str, Any]) -> str | None:
+    """Why a row would be 0, or without a number, throughout; None where it tells something."""
+    numbers = [one["numbers"][key] for one in data["candidates"] if key in one["numbers"]]
+    if any(number["value"] or number["holds"] is False for number in numbers):
+        return None
+    own = [number for number in numbers if not _makes_no_sense(number)]
+    notes = dict.fromkeys(number["note"].removeprefix("n/a: ") for number in own if number["note"])
+    zero = any(number["value"] is not None for number in own)
+    return "; ".join(["0 throughout", *notes] if zero else notes)
 
 
 def _makes_no_sense(number: Mapping[str, Any] | None) -> bool:

@@ -28,7 +28,7 @@ LARGEST_SVG = 200_000
 class Table:
     """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark.
 
-    `fold` hides it until its title is clicked.
+    `fold` hides it until its title is clicked; `note` stands below it.
 
     Examples
     --------
@@ -43,6 +43,7 @@ class Table:
     rows: list[list[str]]
     bad: frozenset[int] = frozenset()
     fold: bool = False
+    note: str = ""
 
     @property
     def words(self) -> frozenset[int]:

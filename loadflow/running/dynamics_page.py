@@ -11,24 +11,25 @@ from loadflow.report import Section, Table
 def dynamics_section(data: xr.Dataset) -> Section:
     """Tabulate stiffness and damping of the bearings, and the modes of each shaft line."""
     cases = [str(name) for name in data["case"].values]
-    names = [(a, b) for a in data["dof"].values[:2] for b in data["along"].values[:2]]
+    axes = [*zip(data["dof"].values[:2], "zy", (-1, 1))]  # the first axis of bearings is −z
+    names = [(a, b, one * other) for a, _, one in axes for b, _, other in axes]
     rows = [
         [f"{case} {bearing}"]
         + [
-            f"{float(data[part].sel(bearing=bearing, dof=a, along=b).isel(case=k)) / 1e9:.4g}"
+            f"{sign * data[part].sel(bearing=bearing, dof=a, along=b).values[k] / 1e9 + 0.0:.4g}"
             for part in ("stiffness", "damping")
-            for a, b in names
+            for a, b, sign in names
         ]
         for k, case in enumerate(cases)
         for bearing in data["bearing"].values
     ]
-    entry = [f"{a[-1]}{b[-1]}" for a, b in names]
+    entry = [f"{a}{b}" for _, a, _ in axes for _, b, _ in axes]
     heads = [f"K {e}, GN/m" for e in entry] + [f"C {e}, GN s/m" for e in entry]
     tables = [Table("Bearings at mean load and speed", ["load case", *heads], rows)]
     text = (
-        "Axes: x down, y to the left looking downwind. K and C belong to a vibration at "
+        "Axes of the shaft: z up, y to the left looking downwind. K and C belong to a vibration at "
         f"{_of_speed(float(np.max(data['whirl'])))}. Over speed: the tables in the folder "
-        "coefficients, as ROSS reads them."
+        "coefficients, as ROSS reads them, with x down and y left."
     )
     if "natural_frequency" in data:
         tables.append(_modes(data, cases))

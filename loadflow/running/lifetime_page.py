@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_values
-from loadflow.report import Section, Table
+from loadflow.report import Section
 from loadflow.report.page import Shown
 from loadflow.report.run_charts import duration_chart, exceedance_chart
 from loadflow.running.folder import ForceOf, answered
@@ -17,12 +18,11 @@ from loadflow.scene.scene import Scene
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime import BearingLifetime, LifetimeOptions, lifetimes
 from loadflow.studies.lifetime_page import (
-    HEADS,
     case_table,
     duration_of,
     exceedances,
     markov_picture,
-    summary_rows,
+    summary_table,
     tail_tables,
 )
 from loadflow.studies.run_lifetime import case_shares
@@ -66,12 +66,11 @@ def lifetime_of_loads(
 
 def lifetime_section(lives: list[BearingLifetime], options: LifetimeOptions) -> Section:
     """What matters of each bearing first; its cases, tails and pictures behind."""
-    rows = [row for life in lives for row in summary_rows(life, options)]
-    tables, pictures = [Table("", list(HEADS), rows)], list[Shown]()
+    tables, pictures = [summary_table(lives, options)], list[Shown]()
     for life in lives:
         what = f"Bearing {life.bearing}: "
         tables += [
-            Table(what + table.title, table.heads, table.rows, table.bad, fold=True)
+            replace(table, title=what + table.title, fold=True)
             for table in (case_table(life, options), *tail_tables(life))
         ]
         pictures.append(duration_chart(duration_of(life), what + "hours and revolutions above"))

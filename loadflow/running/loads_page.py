@@ -19,12 +19,13 @@ from loadflow.stages.statistics import SLOPE
 from loadflow.studies.extreme_loads import safety_factor
 from loadflow.studies.run_lifetime import known_shares
 
-LOAD_ROWS = (
-    ("speed", "speed"),
-    ("hub_force", "hub force"),
-    ("hub_moment", "hub moment"),
-    ("force", "bearing"),
+_LOAD_ROWS = (
+    ("speed", "speed", ""),
+    ("hub_force", "hub", "F"),
+    ("hub_moment", "hub", "M"),
+    ("force", "bearing", "F"),
 )
+"""Loads of the first table: variable, what it is of, and symbol before its axis."""
 
 
 def loads_section(folder: Path, tables: dict[str, xr.Dataset], shown: list[str]) -> Section:
@@ -58,10 +59,10 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     share = known_shares(tables, data)
     factors = np.array([safety_factor(str(dlc)) for dlc in data["dlc"].values])
     rows, ultimate = [], []
-    for name, title in LOAD_ROWS:
+    for name, title, symbol in _LOAD_ROWS:
         if name not in data:
             continue
-        for label, part in _parts(data[name], title):
+        for label, part in _parts(data[name], title, symbol):
             values, unit = readable(part.assign_attrs(data[name].attrs))
             if not values.any():
                 continue  # a moment bearing's own moment elsewhere, say
@@ -110,14 +111,15 @@ def _axis(part: xr.DataArray) -> int:
     return part.dims.index("statistic")
 
 
-def _parts(data: xr.DataArray, title: str) -> Iterator[tuple[str, xr.DataArray]]:
+def _parts(data: xr.DataArray, title: str, symbol: str) -> Iterator[tuple[str, xr.DataArray]]:
     dims = [dim for dim in ("bearing", "axis") if dim in data.dims]
     if not dims:
         yield title, data
         return
     for labels, part in data.stack(part=dims).groupby("part"):
         names = labels if isinstance(labels, tuple) else (labels,)
-        yield f"{title} {' '.join(map(str, names))}", part.squeeze("part", drop=True)
+        *bearing, axis = map(str, names)
+        yield " ".join([title, *bearing, symbol + axis]), part.squeeze("part", drop=True)
 
 
 def _load_charts(folder: Path, shown: list[str]) -> Iterator[Chart]:

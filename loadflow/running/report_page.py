@@ -18,13 +18,13 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, percent, scale_of
+from loadflow.quantities import percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
 from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
 from loadflow.report.sketch import sketch
-from loadflow.running.answers_page import answer_tables, largest
+from loadflow.running.answers_page import answer_tables
 from loadflow.running.dynamics_page import dynamics_section
 from loadflow.running.energy_page import energy_table
 from loadflow.running.folder import (
@@ -41,12 +41,12 @@ from loadflow.running.loads_page import loads_section
 from loadflow.running.profile_page import profile_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
+from loadflow.running.verdicts_page import lifetime_table, verdict_sentence, verdict_table
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.studies.compare_words import drawn
 from loadflow.studies.lifetime_page import write_lifetime_tables
-from loadflow.verdict import Verdict, from_dataset
 
 TABLES = "tables"
 """Folder of a run that holds the tables of its report as CSV."""
@@ -138,14 +138,18 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Tables as CSV": f"in the folder {TABLES} beside this page",
-        "Took": f"{manifest.get('wall_seconds', 0):.0f} s with {_processes(manifest)}",
+        "Took": _took(manifest),
         "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }
 
 
-def _processes(manifest: dict[str, Any]) -> str:
-    count = manifest.get("workers")
-    return "1 process" if count == 1 else f"{count} processes"
+def _took(manifest: dict[str, Any]) -> str:
+    seconds, workers = manifest.get("wall_seconds", 0.0), manifest.get("workers")
+    time = f"{seconds:.0f} s" if seconds < _LONG else f"{seconds / 60:.0f} min"
+    return f"{time} with {workers} {'process' if workers == 1 else 'processes'}"
+
+
+_LONG = 600.0  # s: longer times are told in minutes
 
 
 def _turbine_fact(scene: Scene) -> str:
@@ -221,7 +225,7 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     pictures: list[Shown] = [_shaft_sketch(scene)]
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
     found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
-    notes = [*answer_tables(found, tables), *_verdict_table(tables), *_lifetime_table(tables)]
+    notes = [*answer_tables(found, tables), *verdict_table(tables), *lifetime_table(tables)]
     notes += energy_table(tables)
     if failures:
         without = [[part, why] for part, why in failures.items()]
@@ -231,67 +235,11 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
-    said = [more_seeds(found, lambda result: min(scene.allowed(result), WARN))]
+    said = [verdict_sentence(tables)]
+    said.append(more_seeds(found, lambda result: min(scene.allowed(result), WARN)))
     said += sentences(of_run(scene, tables, manifest.get("expected_errors", {})))[:1]
     text = " ".join(f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one)
     return Section("Overview", text, tables=notes, pictures=pictures)
-
-
-def _verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """All verdicts of the run, the broken ones marked; nothing if there are none."""
-    if "verdicts" not in tables:
-        return
-    found = [*from_dataset(tables["verdicts"])]
-    rows = [_verdict_row(verdict) for verdict in found]
-    bad = frozenset(k for k, verdict in enumerate(found) if not verdict.holds)
-    heads = ["bearing", "what", "value", "limit", "margin", "verdict", "governed by", "limit from"]
-    yield Table("Verdicts", [*heads, "remarks"], rows, bad)
-
-
-_FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
-
-
-def _verdict_row(verdict: Verdict) -> list[str]:
-    limit, at = "", verdict.case
-    size = largest(verdict.value, verdict.limit)
-    film = verdict.unit == "m" and size < _FILMS
-    if verdict.unit == "h" and size >= HOURS_PER_YEAR:
-        factor, unit = 1 / HOURS_PER_YEAR, "years"
-    else:
-        factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
-    unit = "" if unit == "–" else unit
-    zero, scale = scale_of(unit)
-    if np.isfinite(verdict.limit):
-        sign = "≤" if verdict.sense == "at most" else "≥"
-        limit = f"{sign} {factor * (verdict.limit - zero):.4g} {scale}".rstrip()
-    if np.isfinite(verdict.time):
-        at += f", {verdict.time:.1f} s"
-    value, margin = (
-        "-" if np.isnan(number) else f"{factor * number:.4g} {one}".rstrip()
-        for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
-    )
-    said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
-    return [verdict.subject, verdict.quantity, value, *said]
-
-
-def _lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """Life and energy a year of each bearing over all load cases."""
-    if "lifetime" not in tables:
-        return
-    data, rows = tables["lifetime"], []
-    for kind in ("journal", "thrust", "rolling"):
-        for name in data[kind].values.tolist() if kind in data.dims else ():
-            own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
-            life, modified = (
-                f"{float(own[n]) / HOURS_PER_YEAR:.4g}" if n in own else "-"
-                for n in ("life_hours", "modified_life_hours")
-            )
-            energy = own.get(f"{kind}_energy")
-            spent = "-" if energy is None else f"{float(energy) / 3.6e9:.4g}"
-            rows.append([f"{kind} {name}", life, modified, spent])
-    heads = ["over all load cases", "life L10h, years", "modified life L10mh, years"]
-    heads.append("energy, MWh a year")
-    yield Table("Lifetime", heads, rows)
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:
@@ -375,7 +323,7 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
     return [first, _case_table(data[each])]
 
 
-def _case_table(data: xr.Dataset, title: str = "") -> Table:
+def _case_table(data: xr.Dataset) -> Table:
     """One row for each case (and bearing), one column for each number that is ever not zero."""
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
     names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
@@ -404,10 +352,9 @@ def _case_table(data: xr.Dataset, title: str = "") -> Table:
         for b, bearing in enumerate(bearings)
     ]
     bad = frozenset(map(int, np.flatnonzero(counts.T.ravel() > 0)))
-    if empty:
-        zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
-        title = f"{title} Zero in all cases: {zero}.".strip()
-    return Table(title, ["case", *heads], rows, bad)
+    zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
+    note = f"Zero in all cases: {zero}." if zero else ""
+    return Table("", ["case", *heads], rows, bad, note=note)
 
 
 def _check_section(check: xr.Dataset) -> Section:

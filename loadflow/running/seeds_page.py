@@ -44,7 +44,7 @@ def seed_section(
         pictures.append(seed_verdicts(seeds, str(method), caption))
     pictures += _spread(folder, manifest, force_of)
     text = (
-        f"{_answer(seeds)} "
+        f"{answer(seeds)} "
         "Series of one wind speed may be merged only if location, spread and spectrum agree. The "
         "printed tests take every sample as independent, which samples of a record are not: they "
         "reject nearly always. The calibrated ones hold their level."
@@ -52,14 +52,53 @@ def seed_section(
     return Section("Seeds", text, tables, pictures)
 
 
-def _answer(seeds: xr.Dataset) -> str:
-    """The verdict of each variant of the tests in a sentence."""
+_VALID = "calibrated"
+"""Tests that hold their level; with them, which seeds belong together is asked."""
+
+
+def answer(seeds: xr.Dataset) -> str:
+    """At how many wind speeds seeds may be merged, by the valid tests, and why where they differ.
+
+    Parameters
+    ----------
+    seeds : xarray.Dataset
+        Tests of a run.
+    """
     count = seeds.sizes["group"]
-    said = "; ".join(
-        f"{method}: {int((seeds['may_merge'].sel(variant=method) > 0).sum())} of {count}"
+    merged = {
+        str(method): f"{int((seeds['may_merge'].sel(variant=method) > 0).sum())} of {count}"
         for method in seeds["variant"].values
-    )
-    return f"Wind speeds whose seeds may be merged, by tests {said}."
+    }
+    valid = merged.pop(_VALID, None)
+    others = "; ".join(f"{method}: {said}" for method, said in merged.items())
+    if valid is None:
+        return f"Seeds may be merged by tests {others}, which are not valid."
+    beside = f" ({others}, not valid)" if others else ""
+    text = f"By the calibrated tests, seeds may be merged at {valid} wind speeds{beside}."
+    alone = [
+        f"{seeds['wind_speed'].values[g]:g}" for g in range(count) if _apart_by_chance(seeds, g)
+    ]
+    if alone:
+        tests = count * seeds.sizes["component"]
+        text += (
+            f" Those of {', '.join(alone)} m/s differ only if that wind speed is tested alone: "
+            f"among the {tests} tests of this run such a difference may be chance (Holm's "
+            "correction), so that they may be merged."
+        )
+    return text
+
+
+def _apart_by_chance(seeds: xr.Dataset, group: int) -> bool:
+    """Whether seeds fall into several groups at one wind speed alone, but may be merged."""
+    several = str(seeds["together"].values[group]).count("{") > 1
+    return several and bool(seeds["may_merge"].sel(variant=_VALID).values[group] > 0)
+
+
+def _belong(seeds: xr.Dataset, group: int) -> str:
+    together = str(seeds["together"].values[group])
+    if _VALID in seeds["variant"].values and _apart_by_chance(seeds, group):
+        return f"all; this wind speed alone: {together}"
+    return together
 
 
 def _merge_table(seeds: xr.Dataset) -> Table:
@@ -70,7 +109,7 @@ def _merge_table(seeds: xr.Dataset) -> Table:
             f"{seeds['wind_speed'].values[g]:g}",
             str(seeds["seeds"].values[g]),
             *("yes" if merge else "no" for merge in seeds["may_merge"].isel(group=g).values),
-            str(seeds["together"].values[g]),
+            _belong(seeds, g),
         ]
         for g in range(seeds.sizes["group"])
     ]

@@ -223,7 +223,7 @@ class ThrustCollar(AxialBearing):
         row = self.geometry
         return (
             f"d {2e3 * row.inner_radius:.0f} … D {2e3 * row.outer_radius:.0f} mm, play "
-            f"{1e6 * self.play:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
+            f"{1e6 * self.play:.0f} µm, {1e3 * self.lubricant.viscosity:.3g} mPa s"
         )
 
     def normal_load(self, force: Array, moment: Array) -> Array:
@@ -310,7 +310,8 @@ class ConePair(AxialBearing):
         return (
             f"mean D {2e3 * self.radius:.0f} mm, B {1e3 * (cone.slant[1] - cone.slant[0]):.0f} mm "
             f"along the cone, {math.degrees(cone.half_angle):.0f}°, {1e3 * pair.distance:.0f} mm "
-            f"apart, clearance {1e6 * self.clearance:.0f} µm, {self.lubricant.viscosity:.3g} Pa s"
+            f"apart, clearance {1e6 * self.clearance:.0f} µm, "
+            f"{1e3 * self.lubricant.viscosity:.3g} mPa s"
         )
 
     def normal_load(self, force: Array, moment: Array) -> Array:

@@ -247,7 +247,7 @@ def _reasons(groups: list[Group], compare: Compare) -> tuple[str, ...]:
     if len(groups) == 1:
         return (compare(groups[0]).text,)
     return tuple(
-        f"groups {a} and {b}: {compare(_union(groups[a], groups[b])).text}"
+        f"groups {a + 1} and {b + 1}: {compare(_union(groups[a], groups[b])).text}"
         for a, b in combinations(range(len(groups)), 2)
     )
 

@@ -25,7 +25,7 @@ from loadflow.studies.compare_margins import (
     margin_of,
     row_shares,
 )
-from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
     Comparison,
@@ -99,10 +99,7 @@ def compared(
     failures, without_place
         Of `Comparison`.
     """
-    order = sorted(
-        answers,
-        key=lambda one: (not one.holds, np.nan_to_num(one.numbers["energy"].value, nan=math.inf)),
-    )
+    order = sorted(answers, key=lambda one: one.rank)
     return Comparison(
         name=scene.name,
         conclusion=conclusion(order),
@@ -182,18 +179,19 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
     ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
-    yield "eccentricity_ratio", _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
+    ratio = with_wide_bore(_against(ratio, verdicts, "eccentricity ratio ε", 1.0))
+    yield "eccentricity_ratio", ratio
     name, model = "largest_pressure", "maximum pressure"
     pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
     share = _shares(run, table)
     flows = {
-        "oil_flow": ("mean_side_flow", 6e4, "l/min"),
-        "pump": ("mean_supply_power", 1e-3, "kW"),
+        "oil_flow": ("mean_side_flow", 6e4, "l/min", "no oil leaves the film"),
+        "pump": ("mean_supply_power", 1e-3, "kW", "oil is fed without pressure"),
     }
-    for key, (name, scale, unit) in flows.items():
+    for key, (name, scale, unit, none) in flows.items():
         whole = table[name].fillna(0.0).sum("bearing").values * scale
-        yield key, _mean(run, whole, share, groups, unit)
+        yield key, _mean(run, whole, share, groups, unit, "" if whole.any() else none)
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
     yield from _lost(run, table, table["lost_power"], "")
@@ -243,7 +241,8 @@ def _mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Gro
     """Hours a year above E_krit or in contact while turning, of the bearing with most of them."""
     part = (table["mixed_friction_time"] / table["duration"]).max("bearing").values
     touching = float(table["contact_time"].sum())
-    note = f"in contact for {touching:.3g} s of all cases together" if touching else ""
+    note = "" if part.any() else "no film is in contact or above E_krit while turning"
+    note = f"in contact for {touching:.3g} s of all cases together" if touching else note
     return _mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
 
 

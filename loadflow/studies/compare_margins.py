@@ -124,7 +124,7 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
             allowed = limit / seen * usual  # motion changes a film by the same share there
             if answer == "minimum_film":
                 factor, thinner = film_factors(value, allowed)
-                change = f"{place}: oil of {thinner * options.lubricant.viscosity:.2g} Pa s"
+                change = f"{place}: oil of {1e3 * thinner * options.lubricant.viscosity:.3g} mPa s"
             else:
                 factor, change = pressure_factor(value, allowed), ""
             power = power_of_load(partial(value, oil=1.0), factor, WIDEST)

@@ -50,7 +50,7 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
         told = f"{what} of the {bearing.kind} bearing in {place}"
         if field == "minimum_film":
             factor, thinner = film_factors(value, limit)
-            change = f"{place}: oil of {thinner * bearing.lubricant.viscosity:.2g} Pa s"
+            change = f"{place}: oil of {1e3 * thinner * bearing.lubricant.viscosity:.3g} mPa s"
         else:
             factor, change = pressure_factor(value, limit), ""
         power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
@@ -89,3 +89,17 @@ def value_of(
         return float(getattr(thinner.solve(load * force, load * moment, speed), field))
     except SolverError:
         return math.nan
+
+
+def with_wide_bore(ratio: Number) -> Number:
+    """An eccentricity ratio; above 1 it says why there is a film none the less.
+
+    Examples
+    --------
+    >>> with_wide_bore(Number(1.1)).note
+    'over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more'
+    """
+    if not ratio.value > 1:
+        return ratio
+    note = "over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more"
+    return replace(ratio, note=note)

@@ -15,6 +15,7 @@ from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.verdict import Verdict
 
 THRUST = "force along the shaft without a bearing"
+UNCARRIED = "thrust that no bearing carries"
 
 
 @dataclass(frozen=True)
@@ -123,6 +124,29 @@ class Judged:
         """Whether all hold, but for the lack of a thrust bearing."""
         return not self.broken and not self.unanswered
 
+    @property
+    def reservations(self) -> dict[str, str]:
+        """Rules of practice that it breaks, with value and limit, and a thrust nothing carries.
+
+        No verdict counts them, but they speak against a candidate that holds all limits.
+        """
+        found = {}
+        for key, about in QUANTITIES.items():
+            number = self.numbers.get(key)
+            if about.rule and number is not None and number.holds is False:
+                unit = "" if number.unit == "–" else f" {number.unit}"
+                found[about.name] = f"{number.value:.3g}{unit}, limit {number.limit:.3g}{unit}"
+        thrust = [v.value for v in self.verdicts if v.quantity == THRUST and not v.holds]
+        if thrust:
+            found[UNCARRIED] = f"{max(thrust) / 1e3:.0f} kN"
+        return found
+
+    @property
+    def rank(self) -> tuple[bool, bool, float]:
+        """Its place among others: what holds without reservations first, then by energy lost."""
+        lost = self.numbers["energy"].value
+        return not self.holds, bool(self.reservations), math.inf if math.isnan(lost) else lost
+
     def as_dict(self) -> dict[str, Any]:
         """All of it in plain values for JSON; what is not known is None."""
         return {
@@ -131,6 +155,7 @@ class Judged:
             "source": self.source,
             "kind": self.kind,
             "holds": self.holds,
+            "reservations": self.reservations,
             "thrust": self.thrust,
             "governs": self.governs,
             "change": self.change,
@@ -182,9 +207,9 @@ class Comparison:
     name : str
         Of the scene.
     conclusion : str
-        One sentence.
+        One sentence, and one with reservations where there are any.
     candidates : tuple of Judged
-        Those that hold first, each group by the energy that it loses.
+        By `Judged.rank`.
     facts : dict
         Loads, seeds, shaft.
     shaft : list

@@ -13,37 +13,29 @@ from loadflow.data import evidence
 from loadflow.quantities import CELSIUS
 from loadflow.scene.places import WRITTEN
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_quantities import QUANTITIES
-from loadflow.studies.compare_result import Judged
+from loadflow.studies.compare_result import UNCARRIED, Judged
 from loadflow.studies.seed_intervals import Groups
 from loadflow.verdict import Verdict
 
 
 def conclusion(judged: Sequence[Judged]) -> str:
-    """How many hold, which loses least, what the other kind does; which risks speak against both.
+    """How many hold, which loses least, what the other kind does; then what speaks against some.
 
-    The second sentence is missing where no rule of practice is broken.
+    Parameters
+    ----------
+    judged : sequence of Judged
+        By their rank: the best is one without reservations wherever there is one. The second
+        sentence is missing where no candidate that holds has any.
     """
-    text, good = _sentence(judged), [one for one in judged if one.holds]
-    shown = [good[0], *[one for one in good if one.kind != good[0].kind][:1]] if good else []
-    risks = [f"{one.title} ({told})" for one in shown if (told := _risks(one))]
-    if not risks:
+    against: dict[str, list[str]] = {}
+    for one in judged:
+        for name, what in one.reservations.items() if one.holds else ():
+            against.setdefault(name, []).append(f"{one.title} ({what})")
+    text = _sentence(judged)
+    if not against:
         return text
-    broken = " and ".join(risks)
-    return f"{text} Rules of practice, which a rating life does not count, are broken by {broken}."
-
-
-def _risks(one: Judged) -> str:
-    """Rules of thumb that a candidate breaks, which no verdict counts."""
-    rules = ((about, one.numbers.get(key)) for key, about in QUANTITIES.items() if about.rule)
-    return "; ".join(
-        f"{about.name} {number.value:.3g} {number.unit}".removesuffix(" –")
-        + f", limit {'≤' if about.at_most else '≥'} {number.limit:.3g} {number.unit}".removesuffix(
-            " –"
-        )
-        for about, number in rules
-        if number is not None and number.holds is False
-    )
+    parts = (f"{name}: {'; '.join(those)}" for name, those in against.items())
+    return f"{text} Reservations: {'; and '.join(parts)}."
 
 
 def _sentence(judged: Sequence[Judged]) -> str:
@@ -54,13 +46,16 @@ def _sentence(judged: Sequence[Judged]) -> str:
             f"None of the {len(judged)} candidates holds all limits on these loads; nearest are "
             f"{_named(least)}, which break {_listed(least.broken) or 'none that is known'}."
         )
-    best = good[0]
-    hold = "holds" if len(good) == 1 else "hold"
-    least_of = "these, " if len(good) == 1 else "of these, "
-    text = (
-        f"{len(good)} of {len(judged)} candidates {hold} all limits on these loads; {least_of}"
-        f"{_told(best, least=len(good) > 1)}"
-    )
+    count, best = len(good), good[0]
+    reserved = sum(bool(one.reservations) for one in good)
+    hold = "holds its limits" if count == 1 else "hold their limits"
+    text = f"{count} of {len(judged)} candidates {hold} on these loads"
+    if reserved:
+        some = f"of which {reserved}" if reserved < count else "all" if count > 1 else "though"
+        text += f", {some} with reservations"
+    left = count - reserved or count
+    whose = "of these, " if left == count else "of the others, "
+    text += f"; {whose if left > 1 else ''}{_told(best, least=left > 1)}"
     others = [one for one in good if one.kind != best.kind]
     if others:
         return f"{text}; the best {_told(others[0])}."
@@ -77,15 +72,13 @@ def _named(one: Judged) -> str:
 
 
 def _told(one: Judged, least: bool = False) -> str:
-    energy, factor = one.numbers["energy"], one.numbers["load_factor"]
-    if not math.isfinite(energy.value):
-        lost = "lose no one knows what,"
-    elif least:
-        lost = f"lose least, {energy.value:.3g} MWh a year,"
-    else:
-        lost = f"lose {energy.value:.3g} MWh a year,"
-    need = ", but need a thrust bearing of their own" if one.thrust.startswith("none") else ""
-    return f"{_named(one)} {lost} with loads to spare by a factor of {factor.value:.3g}{need}"
+    energy, factor = one.numbers["energy"].value, one.numbers["load_factor"].value
+    lost = f"{energy:.3g} MWh a year" if math.isfinite(energy) else "no one knows what"
+    if least and math.isfinite(energy):
+        lost = f"least, {lost}"
+    if UNCARRIED in one.reservations:
+        lost += " without that of a thrust bearing, which they need"
+    return f"{_named(one)} lose {lost}, with a capacity margin of {factor:.3g}"
 
 
 def _listed(verdicts: Sequence[Verdict]) -> str:
@@ -157,7 +150,7 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                     "kind": f"journal, {size.shape.kind}",
                     "measures": f"D {1e3 * size.diameter:.0f} × B {1e3 * size.width:.0f} mm, "
                     f"clearance {1e3 * size.relative_clearance:.2f} ‰, "
-                    f"{part.lubricant.viscosity:.3g} Pa s",
+                    f"{1e3 * part.lubricant.viscosity:.3g} mPa s",
                 }
             )
     if "thrust" in rooms:

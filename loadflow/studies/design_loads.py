@@ -26,15 +26,16 @@ from loadflow.scene.journal import Journal
 from loadflow.stages.film_response import film_response
 from loadflow.studies.bearing_series import BearingSeries
 
-AXES = ("Fx (down)", "Fy (left)")
+AXES = ("−Fz (down)", "Fy (left)")
+"""Forces across the shaft, in the order of the film's frame, in words of the shaft's frame."""
+
 CLOSING = 0.01  # allowed relative change of a frequency so that the orbit closes
 STATIONARY_HEADS = (
     "case",
     "bearing",
     "load",
     "speed, 1/min",
-    "Fx, kN",
-    "Fy, kN",
+    *(f"{axis}, kN" for axis in AXES),
     "F, kN",
     "time, s",
 )

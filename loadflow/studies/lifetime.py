@@ -28,7 +28,9 @@ from loadflow.reduction.quasistatic import class_edges
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime_shares import YEAR, lifetime_shares, without_share
 
-COMPONENTS = ("Fx (down)", "Fy (left)", "F axial")
+COMPONENTS = ("Fz", "Fy", "Fx")
+"""Forces of the shaft's frame of which ranges are counted, which have no sign."""
+
 TailKind = Literal["maxima", "peaks"]
 
 
@@ -106,7 +108,7 @@ class BearingLifetime:
     duration : LoadDuration
         Time and revolutions of the lifetime by speed and radial force.
     markov : MarkovMatrix
-        Transitions of the first radial component between classes, of the lifetime.
+        Transitions of −Fz, the force downwards, between classes, of the lifetime.
     tails : dict of Tail by wind speed (m/s)
         Of the radial force, where there are enough data.
     tail_shares : ndarray, shape (tails,)

@@ -21,9 +21,9 @@ LEVELS = 200  # points of a drawn tail
 def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[str]]:
     """What matters of a lifetime under `HEADS`."""
     rows = [
-        [life.bearing, f"DEL of {name}, m = {m:g}, range at 1 Hz", f"{value / 1e3:.5g}", "kN"]
+        [life.bearing, f"DEL of {name}, m = {m:g}, range at 1 Hz", f"{loads[c] / 1e3:.5g}", "kN"]
         for m, loads in zip(options.exponents, life.lifetime_equivalent.tolist())
-        for name, value in zip(COMPONENTS, loads)
+        for c, name in _loaded(life).items()
     ]
     turns = float(life.duration.revolutions.sum())
     said = f"revolutions in {options.years:g} years"
@@ -39,6 +39,24 @@ def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[s
         value = f"{e.value / 1e3:.5g} ({e.low / 1e3:.5g} … {e.high / 1e3:.5g})"
         rows.append([life.bearing, what, value, "kN"])
     return rows
+
+
+def summary_table(lives: Sequence[BearingLifetime], options: LifetimeOptions) -> Table:
+    """What matters of some lifetimes; forces that a bearing never carries are said below."""
+    rows = [row for life in lives for row in summary_rows(life, options)]
+    none = (f"{name} of bearing {life.bearing}" for life in lives for name in _unloaded(life))
+    told = ", ".join(none)
+    return Table("", list(HEADS), rows, note=f"Zero in all cases: {told}." if told else "")
+
+
+def _loaded(life: BearingLifetime) -> dict[int, str]:
+    """Number and name of the components with a range in any case."""
+    ranges = life.equivalent.sum(axis=(0, 2))
+    return {int(c): COMPONENTS[c] for c in np.flatnonzero(ranges)}
+
+
+def _unloaded(life: BearingLifetime) -> list[str]:
+    return [name for name in COMPONENTS if name not in _loaded(life).values()]
 
 
 def share_warnings(lives: Sequence[BearingLifetime]) -> list[str]:
@@ -76,8 +94,7 @@ def write_lifetime(
 ) -> Path:
     """Write for each bearing its tables, see `write_lifetime_tables`, and one page."""
     write_lifetime_tables(lives, folder)
-    rows = [row for life in lives for row in summary_rows(life, options)]
-    sections = [Section("Lifetime", tables=[Table("", list(HEADS), rows)])]
+    sections = [Section("Lifetime", tables=[summary_table(lives, options)])]
     sections += [
         Section(
             f"Bearing {life.bearing}",
@@ -140,12 +157,16 @@ def _write_revolutions(life: BearingLifetime, path: Path) -> None:
 def case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
     """Damage-equivalent loads of each case with its share of the lifetime."""
     heads = ["case", "share"]
-    heads += [f"{name}, m = {m:g}, kN" for m in options.exponents for name in COMPONENTS]
+    loaded = _loaded(life)
+    heads += [f"{name}, m = {m:g}, kN" for m in options.exponents for name in loaded.values()]
+    known = life.equivalent[:, [*loaded]]
     rows = [
-        [case, f"{share:.4%}", *(f"{v / 1e3:.4g}" for v in life.equivalent[..., k].ravel())]
+        [case, f"{share:.4%}", *(f"{v / 1e3:.4g}" for v in known[..., k].ravel())]
         for k, (case, share) in enumerate(zip(life.cases, life.shares.tolist()))
     ]
-    return Table("Damage-equivalent loads of the cases", heads, rows)
+    zero = ", ".join(_unloaded(life))
+    note = f"Zero in all cases: {zero}." if zero else ""
+    return Table("Damage-equivalent loads of the cases", heads, rows, note=note)
 
 
 def tail_tables(life: BearingLifetime) -> list[Table]:
@@ -189,7 +210,7 @@ def markov_picture(life: BearingLifetime, what: str = "") -> Drawing:
             "edges": ("edge", life.markov.edges, {"units": "N"}),
         }
     )
-    caption = f"{what}Markov matrix of Fx over the lifetime."
+    caption = f"{what}Markov matrix of −Fz (down) over the lifetime."
     return Drawing(load_figures.markov(matrix), caption, True)
 
 

@@ -414,8 +414,8 @@ def _lives(
                 value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
         if kind:
             friction = scene.friction
-            warm = friction.temperature - CELSIUS
-            note += f"; {friction.lubricant}, {warm:.4g} °C, {friction.cleanliness}"
+            warm = f"{friction.temperature - CELSIUS:.0f} °C"
+            note += f"; {friction.lubricant}, {warm}, {friction.cleanliness}"
             if (thin := float(table["bearing_thin_share"].max())) > 0:
                 note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
         yield Verdict(

@@ -21,7 +21,7 @@ from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import make_plan
-from loadflow.report.compare_page import _row
+from loadflow.report.compare_page import _row, write_comparison
 from loadflow.report.sketch import sketch
 from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
@@ -35,9 +35,9 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_pads import clearance_used
+from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
-from loadflow.studies.compare_result import Judged, Number, plain
+from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -187,6 +187,22 @@ def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_rati
     assert (found.unit, found.limit != found.limit, found.holds) == ("–", True, None)
 
 
+def test_an_eccentricity_ratio_above_1_says_why_there_is_a_film_and_others_nothing():
+    assert "preloaded lobes and pads leave more" in with_wide_bore(Number(1.11)).note
+    assert with_wide_bore(Number(0.9)).note == ""
+
+
+def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
+    page = found.page.read_text(encoding="utf-8")
+    told = {one.references: [] for one in found.comparison.candidates}
+    for one in found.comparison.candidates:
+        told[one.references].append(one.title)
+    assert len(told) == 2  # of journal and of rolling bearings
+    for text, titles in told.items():
+        assert page.count(text) == 1
+        assert f"behind the models of {'; '.join(titles)}: {text}" in page
+
+
 def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_start_rubs():
     rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
     scene = make_scene(
@@ -265,8 +281,11 @@ def test_what_carries_the_thrust_is_said(found):
     assert by_name(found)["double-row-tapered"].thrust.startswith("M")
 
 
-def test_those_that_hold_come_first_and_lose_more_and_more(found):
-    rank = [(not one.holds, one.numbers["energy"].value) for one in found.comparison.candidates]
+def test_those_that_hold_without_reservations_come_first_and_lose_more_and_more(found):
+    rank = [
+        (not one.holds, bool(one.reservations), one.numbers["energy"].value)
+        for one in found.comparison.candidates
+    ]
     assert rank == sorted(rank)
     assert found.comparison.conclusion.count(".") >= 1
 
@@ -308,22 +327,44 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
             assert (f"#{one.name}.{key}" in parser.links) == extreme, key
 
 
-def test_the_conclusion_says_which_risks_speak_against_the_best():
-    known = {"energy": Number(3.0, "MWh"), "load_factor": Number(1.6, "×", limit=1.0, holds=True)}
-    light = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
-    kept = {"minimum_load": Number(8.9, "%", limit=2.0, holds=True)}
+def judged_of(name, energy, kind="rolling", **own):
+    known = {"energy": Number(energy, "MWh"),
+             "load_factor": Number(1.6, "×", limit=1.0, holds=True)}  # fmt: skip
     about = {"source": "", "verdicts": (), "thrust": "N2", "governs": "", "change": "",
              "models": {}, "checks": [], "bearings": [], "folder": ""}  # fmt: skip
-    skids, rolls = (
-        Judged(name=name, title=name, kind="rolling", numbers=known | own, **about)
-        for name, own in (("two barrels", light), ("pair", kept))
+    numbers = known | own.pop("numbers", {})
+    return Judged(name=name, title=name, kind=kind, numbers=numbers, **about | own)
+
+
+LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
+LOOSE = Verdict("journal N2", THRUST, 964e3, 0.0, "at most", "N")
+
+
+def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline():
+    skids, rolls = judged_of("barrels", 3.0, numbers=LIGHT), judged_of("pair", 20.0)
+    bare = judged_of("bores", 47.0, "journal", verdicts=(LOOSE,))
+    collar = judged_of("collar", 109.0, "journal")
+    order = sorted([skids, bare, collar, rolls], key=lambda one: one.rank)
+    assert order == [rolls, collar, skids, bare]
+    assert all(one.holds for one in order)
+    assert conclusion(order) == (
+        "4 of 4 candidates hold their limits on these loads, of which 2 with reservations; of the "
+        "others, rolling bearings (pair) lose least, 20 MWh a year, with a capacity margin of 1.6; "
+        "the best journal bearings (collar) lose 109 MWh a year, with a capacity margin of 1.6. "
+        "Reservations: smallest load over the dynamic capacity (skidding): barrels (0.68 %, limit "
+        "2 %); and thrust that no bearing carries: bores (964 kN)."
     )
-    told = conclusion([skids, rolls])
-    assert told.endswith(
-        "broken by two barrels (smallest load over the dynamic capacity (skidding) 0.68 %, "
-        "limit ≥ 2 %)."
-    )
-    assert "broken by" not in conclusion([rolls, skids])
+    assert "Reservations" not in conclusion([rolls, collar])
+    assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
+
+
+def test_a_candidate_with_a_reservation_says_so_in_table_and_depth(found):
+    bare = by_name(found)["journal-cylindrical"]
+    assert bare.holds
+    assert UNCARRIED in bare.reservations
+    page = found.page.read_text(encoding="utf-8")
+    assert f"<small>with reservations: {'; '.join(bare.reservations)}</small>" in page
+    assert f"{bare.title}: holds, with reservations: " in page
 
 
 @pytest.mark.parametrize(
@@ -334,6 +375,25 @@ def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     data = {"quantities": named_quantities()}
     _, _, [cell] = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
     assert cell.limit == said
+
+
+def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_why(tmp_path):
+    def candidate(name, **numbers):
+        return judged_of(name, 3.0, "journal", numbers=numbers)
+
+    idle, lawless = Number(0.0, "kW", note="fed without pressure"), "n/a: wear.law: needs a law"
+    shut = Number(0.0, "µm", limit=1.0, holds=False)
+    one = candidate("one", pump=idle, wear=Number(math.nan, "µm", note=lawless), minimum_film=shut)
+    two = candidate("two", pump=idle, wear=Number(math.nan, "µm", note="n/a: no film bearing"),
+                    minimum_film=shut)  # fmt: skip
+    both = Comparison("c", "", (one, two), {}, [], {}, [])
+    page = write_comparison(tmp_path / "c.html", both.as_dict()).read_text(encoding="utf-8")
+    told = page.split("Left out, as no candidate has a number above 0: ")[1].split("</p>")[0]
+    pump, worn, film = (QUANTITIES[key].name for key in ("pump", "wear", "minimum_film"))
+    assert f"{pump} (0 throughout; fed without pressure)" in told
+    assert f"{worn} (wear.law: needs a law)" in told
+    assert f'<th scope="row">{pump}' not in page
+    assert f'<th scope="row">{film}' in page  # 0 breaks its limit
 
 
 def test_the_table_and_the_json_hold_the_same_numbers(found):

@@ -37,7 +37,7 @@ def test_three_kinds_of_seed_become_three_groups_with_reasons():
     np.testing.assert_array_equal(got.labels["seed"], np.arange(6) + 1)
     assert got.labels.dims == ("case",)
     assert got.groups == [(0, 1, 3, 5), (2,), (4,)]
-    assert got.reasons[0].startswith("groups 0 and 1: location differs")
+    assert got.reasons[0].startswith("groups 1 and 2: location differs")
     assert "spread differs" in got.reasons[1]
     assert len(got.reasons) == 3
     assert got.representatives[0] in (0, 1, 3, 5)

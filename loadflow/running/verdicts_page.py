@@ -1,0 +1,86 @@
+"""Verdicts of a run, and its lives, on the report page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import xarray as xr
+
+from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, scale_of
+from loadflow.report import Table
+from loadflow.running.answers_page import largest
+from loadflow.verdict import Verdict, from_dataset
+
+
+def verdict_sentence(tables: dict[str, xr.Dataset]) -> str:
+    """How many limits hold, and which do not; empty where nothing is judged."""
+    if "verdicts" not in tables:
+        return ""
+    judged = [one for one in from_dataset(tables["verdicts"]) if one.answer != "no limit"]
+    if not judged:
+        return ""
+    told = f"{sum(one.holds for one in judged)} of {len(judged)} limits hold"
+    for answer in ("broken", "not answered"):
+        if failed := [one for one in judged if one.answer == answer]:
+            told += f"; {answer}: {', '.join(map(_failed, failed))}"
+    return f"{told}."
+
+
+def _failed(verdict: Verdict) -> str:
+    _, what, value, limit, *_ = _verdict_row(verdict)
+    numbers = "" if np.isnan(verdict.value) else f", {value}, limit {limit}"
+    return f"{what} ({verdict.subject}{numbers})"
+
+
+def verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """All verdicts of the run, the broken ones marked; nothing if there are none."""
+    if "verdicts" not in tables:
+        return
+    found = [*from_dataset(tables["verdicts"])]
+    rows = [_verdict_row(verdict) for verdict in found]
+    bad = frozenset(k for k, verdict in enumerate(found) if not verdict.holds)
+    heads = ["bearing", "what", "value", "limit", "margin", "verdict", "governed by", "limit from"]
+    yield Table("Verdicts", [*heads, "remarks"], rows, bad)
+
+
+_FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
+
+
+def _verdict_row(verdict: Verdict) -> list[str]:
+    limit, at = "", verdict.case
+    size = largest(verdict.value, verdict.limit)
+    film = verdict.unit == "m" and size < _FILMS
+    factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
+    unit = "" if unit == "–" else unit
+    zero, scale = scale_of(unit)
+    if np.isfinite(verdict.limit):
+        sign = "≤" if verdict.sense == "at most" else "≥"
+        limit = f"{sign} {factor * (verdict.limit - zero):.4g} {scale}".rstrip()
+    if np.isfinite(verdict.time):
+        at += f", {verdict.time:.1f} s"
+    value, margin = (
+        "-" if np.isnan(number) else f"{factor * number:.4g} {one}".rstrip()
+        for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
+    )
+    said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
+    return [verdict.subject, verdict.quantity, value, *said]
+
+
+def lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+    """Life and energy a year of each bearing over all load cases."""
+    if "lifetime" not in tables:
+        return
+    data, rows = tables["lifetime"], []
+    for kind in ("journal", "thrust", "rolling"):
+        for name in data[kind].values.tolist() if kind in data.dims else ():
+            own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
+            life, modified = (
+                f"{float(own[n]) / HOURS_PER_YEAR:.4g}" if n in own else "-"
+                for n in ("life_hours", "modified_life_hours")
+            )
+            energy = own.get(f"{kind}_energy")
+            spent = "-" if energy is None else f"{float(energy) / 3.6e9:.4g}"
+            rows.append([f"{kind} {name}", life, modified, spent])
+    heads = ["over all load cases", "life L10h, years", "modified life L10mh, years"]
+    yield Table("Lifetime", [*heads, "energy, MWh a year"], rows)
