@@ -88,6 +88,16 @@ def test_starts_and_stops_rest_on_asperities_in_their_pipelines(name):
     assert journal.in_motion
 
 
+@pytest.mark.parametrize("name", EVENTS)
+def test_films_of_starts_and_stops_alone_are_planned_as_accurate_as_with_all_results(name):
+    """An error that a film as it is stated does not know hides none of the rotor's."""
+    scene = read_scene(next(path for path in PIPELINES if path.stem == name))
+    alone = make_plan(scene.model_copy(update={"results": ["journal.film"]}))
+    assert alone.accurate
+    assert alone.scene.loads.dynamic_inflow
+    assert alone.errors["journal.film"] == make_plan(scene).errors["journal.film"]
+
+
 def test_a_start_lifts_off_from_its_asperities(tmp_path):
     film, told, run = events("dlc_3_1_startup", tmp_path, wind_speeds=[16.0], duration=80.0)
     speed, share = np.abs(film["speed"].values), film["contact_share"].values
