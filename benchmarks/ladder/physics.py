@@ -155,8 +155,8 @@ def ten_scenes() -> dict[str, Scene]:
     small, usual, large = TURBINES
     still = {"results": ["loads.statistics", "rolling.loads"]}
     parked = {"dlc": "6.1"} | SHORT
-    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["journal"]
-    touching = {key: stop[key] for key in ("motion", "contact")}
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    touching = {key: stop[key] for key in ("motion", "contact", "shell")}
     events = {"results": ["journal.film"], "film": touching}
     soft = {"kind": "local", "compliance": 1e-11}
     return {
