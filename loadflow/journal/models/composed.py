@@ -81,7 +81,7 @@ def _on_cells(
     """Films on the cells around that are asked for, on as many points across as each asks for."""
     films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
     known = Known(films.films, films.model)
-    levels = levels_at_rest(bearing, options) if control.refine else levels_of(options)
+    levels = levels_at_rest(options) if control.refine else levels_of(options)
     for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:
