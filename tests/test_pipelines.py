@@ -9,6 +9,7 @@ import pytest
 import loadflow as lf
 from loadflow.cli import main
 from loadflow.cube import iter_cases, open_cube
+from loadflow.journal import LocalShell
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, read_scene
@@ -86,6 +87,19 @@ def test_starts_and_stops_rest_on_asperities_in_their_pipelines(name):
     journal = read_scene(next(path for path in PIPELINES if path.stem == name)).journal
     assert journal.contact is not None
     assert journal.in_motion
+    size = journal.geometry
+    given = LocalShell.conformal(2e6 / size.width, size.diameter, size.relative_clearance)
+    assert journal.shell.compliance == pytest.approx(given.compliance, rel=5e-3)
+
+
+@pytest.mark.parametrize("name", EVENTS)
+def test_films_of_starts_and_stops_alone_are_planned_as_accurate_as_with_all_results(name):
+    """An error that a film as it is stated does not know hides none of the rotor's."""
+    scene = read_scene(next(path for path in PIPELINES if path.stem == name))
+    alone = make_plan(scene.model_copy(update={"results": ["journal.film"]}))
+    assert alone.accurate
+    assert alone.scene.loads.dynamic_inflow
+    assert alone.errors["journal.film"] == make_plan(scene).errors["journal.film"]
 
 
 def test_a_start_lifts_off_from_its_asperities(tmp_path):

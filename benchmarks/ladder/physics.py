@@ -219,7 +219,8 @@ def ten_scenes() -> dict[str, Scene]:
     still = {"results": ["loads.statistics", "rolling.loads"]}
     parked = {"dlc": "6.1"} | SHORT
     stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
-    events = {"results": ["journal.film"], "film": {"contact": stop["contact"]}}
+    touching = {key: stop[key] for key in ("contact", "shell")}
+    events = {"results": ["journal.film"], "film": touching}
     soft = {"kind": "local", "compliance": 1e-11}
     return {
         "power production, 1.5 MW": scene_of(small, loads=production),

@@ -170,10 +170,8 @@ class _Choosing:
         for section in alternatives:
             scene = self.with_sections({name: section})
             links = self.links(scene)
-            errors = (
-                _or_infinite(_sum(self._part(scene, place, link) for link in of))
-                for place, of in links.items()
-            )
+            own = self._shares(scene, links, name, ())  # what others bring may not be known
+            errors = np.where(np.isnan(own), np.inf, own).tolist()
             if links not in seen:
                 seen.append(links)
             rating = (*map(float, self.seconds(scene)), *errors)
@@ -285,10 +283,6 @@ def _sum(shares: Iterable[float | None]) -> float | None:
     """Sum of shares; None if one of them is not known."""
     every = list(shares)
     return None if None in every else float(sum(share for share in every if share is not None))
-
-
-def _or_infinite(error: float | None) -> float:
-    return float("inf") if error is None else error
 
 
 def _holds(scene: Scene, errors: Errors) -> bool:

@@ -85,6 +85,22 @@ def test_a_creeping_film_is_that_of_the_grid_on_fine_cells(speed):
         assert getattr(few, name) == pytest.approx(getattr(fine, name), rel=bound), name
 
 
+@pytest.mark.parametrize(
+    ("load", "speed"), [((605000.0, 267000.0), -8.1e-3), ((470825.0, 77164.0), -8.1e-3)]
+)
+def test_asperities_in_a_rigid_bore_at_a_creeping_speed_are_those_of_fine_cells(load, speed, alone):
+    """On graded cells the grid has 28 % less pressure in the first, 9 % more in the second."""
+    wide = replace(BEARING, relative_clearance=0.75e-3)
+    given = {"tilt": (-2.7e-6, 1.3e-6)}
+    few = wide.equilibrium(load, speed, replace(FILM, shell=None), **given)
+    fine = wide.equilibrium(
+        load, speed, replace(GRID, shell=None, grid=(480, 20), grading="uniform"), **given
+    )
+    for name, bound in (("eccentricity_ratio", 1e-4), ("minimum_film", 0.03),
+                        ("maximum_pressure", 0.03)):  # fmt: skip
+        assert getattr(few, name) == pytest.approx(getattr(fine, name), rel=bound), name
+
+
 @pytest.mark.parametrize("compliance", [1e-12, 1e-11])
 def test_a_standing_shaft_in_a_soft_shell_has_the_contact_of_the_grid(compliance):
     """Beside fine surfaces a soft shell gives way by many times their roughness."""

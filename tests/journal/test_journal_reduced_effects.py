@@ -174,7 +174,7 @@ def test_order_across_is_that_of_polynomials(monkeypatch):
     """Each odd and even pair more takes the error of a tilted film down severalfold."""
     found = []
     for points in (3, 5, 7, 11):
-        monkeypatch.setattr(composed_model, "POINTS", (points, points))
+        monkeypatch.setattr(composed_model, "POINTS", (points,) * 5)
         found.append(BEARING.equilibrium(FORCE, SPEED, REDUCED, tilt=UNIT * np.array([0.2, 0.1])))
     errors = [np.linalg.norm(one.moment / found[-1].moment - 1.0) for one in found[:-1]]
     assert errors[0] > 4 * errors[1] > 16 * errors[2]

@@ -26,6 +26,7 @@ from loadflow.numerics.convergence import Limits
 Array = NDArray[np.float64]
 
 _MOST_AROUND = 240  # cells around a shell that is pressed at one place, where its film is thin
+_MOST_RIGID = 480  # around asperities in a rigid bore: a film as thin as they are high ends sooner
 
 
 def composes(bearing: JournalGeometry, film: Film, line: Line) -> bool:
@@ -40,8 +41,8 @@ def equilibrium(
 ) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
     """Fields of `Equilibrium`, which loads have an answer, and which surely have none.
 
-    In a shell that gives way a film too thin for the cells around, or not found on them, is one on
-    more of them, where the mesh may be graded and more may be spent.
+    In a shell that gives way or on asperities a film too thin for the cells around, or not found on
+    them, is one on more of them, where the mesh may be graded and more may be spent.
 
     Warns
     -----
@@ -50,13 +51,15 @@ def equilibrium(
     """
     around, across = options.cells
     may = control.refine and options.may_grade
-    finer_ones = options.shell is not None and may and around < _MOST_AROUND
-    films = _on_cells(bearing, options, force, speed, line, control, finer_ones)
+    gives = options.shell is not None
+    most = _MOST_AROUND if gives else _MOST_RIGID
+    finer_ones = may and (gives or options.contact is not None) and around < most
+    films = _on_cells(bearing, options, force, speed, line, control, finer_ones and gives)
     answer, found, left, none = films.answer, films.found, films.left, films.none
     if finer_ones:
         again = np.flatnonzero(films.thin | ~(found | none))
         if again.size:
-            finer = replace(options, grid=(_MOST_AROUND, across))
+            finer = replace(options, grid=(most, across))
             more = _on_cells(bearing, finer, force[again], speed[again], line.at(again), control)
             _take(answer, again, more)
             left[again] = np.where(more.found, more.left, left[again])
@@ -78,7 +81,7 @@ def _on_cells(
     """Films on the cells around that are asked for, on as many points across as each asks for."""
     films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
     known = Known(films.films, films.model)
-    levels = levels_at_rest(bearing, options) if control.refine else levels_of(options)
+    levels = levels_at_rest(options) if control.refine else levels_of(options)
     for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:

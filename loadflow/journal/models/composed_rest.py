@@ -96,7 +96,7 @@ def films_at_rest(
 
     Loads that surely ask for more cells around are not solved if these `may_leave`.
     """
-    model = build(bearing, options, speed, line, level)
+    model = build(bearing, options, speed, line, level, at_rest=True)
     work, count = model.work, speed.size
     rows = np.zeros((count, model.columns))
     both = 4 if model.whole else 2

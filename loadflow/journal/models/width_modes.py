@@ -98,7 +98,8 @@ class Nodes(NamedTuple):
     highest : array (g, m)
         Share of the highest polynomials L_{n+1} − L_{n−1} of Legendre's, an even and an odd one.
     beyond : array (b, m)
-        The same of all from those on that are the highest of fewer points.
+        The same of all from those on that are the highest of fewer points; where there are none,
+        of the upper half: the highest two may be small by chance where a steep end is missed.
     below : array (m,)
         Share of the width of an inner point that lies on its side of smaller z.
     width, widest : float
@@ -125,7 +126,7 @@ _FINE = 41  # places across the width at which the largest pressure is sought
 def whole_width(half_width: float, points: int, few: int | None = None) -> Nodes:
     """Polynomials over the whole width, 0 at both ends, from their values at inner `points`.
 
-    They are the more ones in place of a `few`, where there are such.
+    They are the more ones in place of a `few`, where there are such, or those themselves.
     """
     zeta, weights = _lobatto_rule(points + 1)
     slopes = _derivative(zeta)
@@ -141,7 +142,7 @@ def whole_width(half_width: float, points: int, few: int | None = None) -> Nodes
         ends=np.array([-1.0, 1.0]),
         fine=np.ascontiguousarray(fine[:, inner]),
         highest=shares[-2:],
-        beyond=shares[(few or points) - 2 :],
+        beyond=shares[few - 2 if few else points // 4 * 2 :],
         below=np.full(points, 0.5),
         width=half_width * float(weights.sum()),
         widest=half_width * float(weights.max()),
@@ -167,7 +168,7 @@ def half_width_nodes(half_width: float, points: int, few: int | None = None) -> 
         ends=np.array([1.0]),
         fine=np.ascontiguousarray(fine[:, inner] + fine[:, mirror]),
         highest=shares[-1:],
-        beyond=shares[(few or points) - 1 :],
+        beyond=shares[few - 1 if few else points // 2 :],
         below=np.full(points, 0.5),
         width=half_width * float(weights[order].sum()),
         widest=half_width * float(weights[order].max()),
