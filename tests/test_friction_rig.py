@@ -105,6 +105,16 @@ def test_the_command_prints_all_parts_of_a_journal_bearing_on_the_pin(capsys):
     assert row["torque"] > row["pin film"] + row["seal"]
 
 
+def test_at_rest_the_asperities_of_a_journal_bearing_rub_under_the_weights(capsys):
+    with pytest.raises(SystemExit):
+        main(["friction-rig", "--speed-rpm=0", "--arrangement=journal", "--json"])
+    row = json.loads(capsys.readouterr().out)["rows"][0]
+    drive = CrankRig().drive
+    weight = 9.81 * (drive.piston_mass + drive.rod_mass)
+    assert row["pin asperities"] == pytest.approx(0.12 * weight * 24e-3, rel=5e-3)
+    assert row["torque"] == pytest.approx(row["pin asperities"] + row["seal"], rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

@@ -91,6 +91,13 @@ def test_a_ratio_for_bores_without_pads_is_said_to_do_nothing():
     assert "dynamics.whirl" not in unused_keys(make_scene(LINE | {"dynamics": {"whirl": 0.5}}))
 
 
+def test_a_ratio_for_rollers_that_damp_in_proportion_is_said_to_do_nothing():
+    rollers = {"name": "x", "results": ["rolling.dynamics"], "shaft": {"moment": {}}}
+    for model, idle in (("proportional", True), ("dry", False)):
+        scene = make_scene(rollers | {"dynamics": {"whirl": 0.5, "contact_model": model}})
+        assert ("dynamics.whirl" in unused_keys(scene)) == idle
+
+
 def test_the_command_line_condenses_pads_at_the_vibration_asked_for(tmp_path):
     line = ["journal", "--diameter=0.2", "--width=0.1", "--relative-clearance=1e-3", "--json"]
     line += ["--viscosity=0.03", "--force-x=8000", "--grid", "24", "8", "--speed-rpm=1000"]

@@ -18,7 +18,9 @@ Arrangement = Literal["rollers", "journal", "straight"]
 def friction_rig(
     speed_rpm: Annotated[
         list[float] | None,
-        typer.Option(help="Of the shaft, 1/min; may be repeated. Default: those of --measured."),
+        typer.Option(
+            help="Of the shaft, 1/min, 0 at rest; may be repeated. Default: those of --measured."
+        ),
     ] = None,
     arrangement: Annotated[
         Arrangement,

@@ -149,9 +149,12 @@ def scaling_note(scene: Scene) -> tuple[str, ...]:
     base, power = scaled_name(scene.turbine.name)
     if power is None:
         return ()
+    kept = "bearings keep the size they have"
+    if scene.loads.source == "files":
+        kept += ", and the series of the files are taken as they are"
     return (
         f"turbine: {base} scaled to {power / 1e6:.4g} MW by similarity: real turbines of that size "
-        "are lighter and softer, and gravity does not follow; bearings keep the size they have",
+        f"are lighter and softer, and gravity does not follow; {kept}",
     )
 
 
@@ -387,7 +390,8 @@ def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
-    places: set[str] = set(scene.journal.bearings) if OF_FILMS in scene.results else set()
+    films = scene.journal.bearings if OF_FILMS in scene.results else ()
+    places: set[str] = {*films}
     kinds = ["journal"] if places else []
     if OF_ROLLING in scene.results:
         places |= {*turning(scene.rolling, scene.shaft)}
@@ -395,8 +399,10 @@ def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
     else:
         for key in ("contact_model", "loss", "time_constant"):
             yield key, f"the result {OF_ROLLING} is not wanted"
-        if not any(scene.journal.at(place).geometry.has_pads for place in places):
-            yield "whirl", "bores without tilting pads have one K and C at every frequency"
+    followed = OF_ROLLING in scene.results and scene.dynamics.contact_model != "proportional"
+    pads = (scene.journal.at(place).geometry.has_pads for place in films)
+    if not followed and not any(pads):
+        yield "whirl", "none of these bearings has another K or C at another frequency"
     if not any(c.beam is not None and places & set(c.bearings) for c in scene.shaft.concepts):
         for key in ("modes", "unbalance"):
             yield key, f"no suspension with a {' or '.join(kinds)} bearing has a beam"

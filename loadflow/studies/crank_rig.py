@@ -17,22 +17,31 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, ValidityWarning
-from loadflow.journal import Film, Guembel, JournalBearing, Lubricant
+from loadflow.journal import Contact, Film, Guembel, JournalBearing, Lubricant
 from loadflow.numerics.fields import check_one_of
 from loadflow.rolling import FrictionOptions
 from loadflow.rolling import friction as parts
 from loadflow.rolling.friction import RollerGaps
 from loadflow.rolling.motion.cage import CageRim, cage_orbit
 from loadflow.rolling.motion.crank import CrankDrive
-from loadflow.rolling.motion.history import RollerHistory, RollerRow, crank_history, radial_history
+from loadflow.rolling.motion.history import (
+    GRAVITY,
+    RollerHistory,
+    RollerRow,
+    crank_history,
+    radial_history,
+)
 from loadflow.rolling.motion.kinematics import common_period
 from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
 from loadflow.rolling.motion.rollers import coulomb_motion, film_motion
 from loadflow.rolling.motion.torque import FrictionTorque, coulomb_torque, film_torque
-from loadflow.tribology import lubricant
+from loadflow.tribology import AsperityContact, lubricant
 
 Array = NDArray[np.float64]
 Stage = Literal["coulomb", "film"]
+
+CREEP = 10.0
+"""Speed, 1/min, that stands for rest: at a tenth of it the torque of rollers changes by 0.2 %."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -197,6 +206,43 @@ class CrankRig:
         if self.pin_film is not None:
             return found + self._journal(self.drive, self.pin_film, rpm)
         return found + self._pin(self.drive, rpm, stage) + self._cage(self.drive, rpm)
+
+    def torque_at_rest(self) -> FrictionTorque:
+        """Torque as the shaft comes to rest, N m, part by part; its losses are those at `CREEP`.
+
+        Only the weights of piston and rod then press on the pin. Rollers are taken at `CREEP`, a
+        journal bearing rests on its asperities.
+
+        Raises
+        ------
+        SolverError
+            As `friction_torque`.
+
+        Examples
+        --------
+        >>> from loadflow.studies.crank_rig import CrankRig
+        >>> round(CrankRig(drive=None).torque_at_rest().torque, 2)
+        0.09
+        """
+        if self.drive is None or self.pin_film is None:
+            return self.friction_torque(CREEP)
+        omega = CREEP * math.pi / 30
+        pin = FrictionTorque({"pin asperities": self._rubbing(self.drive) * omega}, omega)
+        return self._mains(CREEP, "coulomb") + self._seal(CREEP) + pin
+
+    def _rubbing(self, drive: CrankDrive) -> float:
+        """Torque of asperities under the weights on the pin, N m.
+
+        How rough and how stiff they are, which is assumed, decides how deep they sink, not what
+        they rub.
+        """
+        assert self.pin_film is not None
+        asperities = AsperityContact(roughness=0.4e-6, contact_modulus=1e11, factor=1e-3)
+        contact = Contact(asperities, friction=self.adhesion)
+        film = Film(Lubricant(self.viscosity), Guembel(), grid=(48, 12), contact=contact)
+        weight = GRAVITY * (drive.piston_mass + drive.rod_mass)
+        speed = 1e-5  # rad/s: 0.01 % of the weight is left to the oil
+        return float(self.pin_film.equilibrium((weight, 0.0), speed, film).friction_power) / speed
 
     def _mains(self, rpm: float, stage: Stage) -> FrictionTorque:
         row, omega = self.main.row, rpm * math.pi / 30

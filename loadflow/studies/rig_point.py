@@ -32,7 +32,7 @@ def rig_torques(
     rig : CrankRig
         The rig.
     speeds : tuple of float
-        1/min; none: those that are measured.
+        1/min, 0 for the torque at rest; none: those that are measured.
     stage : str
         Of `CrankRig.friction_torque`.
     measured : Path, optional
@@ -62,7 +62,7 @@ def rig_torques(
         raise InputError("no speed: give some, or a file that was measured")
     rows = []
     for rpm in speeds or known:
-        found = rig.friction_torque(rpm, stage)
+        found = rig.torque_at_rest() if rpm == 0.0 else rig.friction_torque(rpm, stage)
         row = {"rpm": rpm, "torque": found.torque}
         if known:
             row |= {"measured": known[rpm], "off": found.torque / known[rpm] - 1}

@@ -22,13 +22,14 @@ _SOURCE = "Nicholas, Barrett & Leader 1980"
 
 
 class Dam(NamedTuple):
-    """Clearance and depth of the pocket (mil), its end (° from the split), axial share, ε."""
+    """Clearance and depth of the pocket (mil), its end (° from the split), axial share, ε, ω_s."""
 
     clearance: float
     depth: float
     end: float
     share: float
     ratio: float
+    threshold: float
 
     @property
     def name(self) -> str:
@@ -57,11 +58,11 @@ class Dam(NamedTuple):
 
 
 DAMS = (
-    Dam(2.2, 2.4, 145, 0.75, 0.29),
-    Dam(2.5, 3.5, 145, 0.75, 0.29),
-    Dam(2.4, 13.4, 150, 0.75, 0.21),
-    Dam(2.4, 5.5, 90, 0.75, 0.22),
-    Dam(2.1, 22.5, 140, 0.50, 0.09),
+    Dam(2.2, 2.4, 145, 0.75, 0.29, 7.5),
+    Dam(2.5, 3.5, 145, 0.75, 0.29, 7.0),
+    Dam(2.4, 13.4, 150, 0.75, 0.21, 4.6),
+    Dam(2.4, 5.5, 90, 0.75, 0.22, 4.6),
+    Dam(2.1, 22.5, 140, 0.50, 0.09, 3.0),
 )
 # of the first two: 1/min; K_xx, K_xy, K_yx, K_yy in lb/in, C_xx, C_xy, C_yy in lb s/in; y upwards
 COEFFICIENTS = (
@@ -71,15 +72,30 @@ COEFFICIENTS = (
 )
 
 
+def _threshold(state: Equilibrium, dam: Dam) -> float:
+    """Speed ω √(c/g) at which a rigid rotor on two such films begins to whirl.
+
+    There K and C, of the load that is the rotor's weight, let it swing without damping.
+    """
+    k, c = np.asarray(state.stiffness), np.asarray(state.damping)
+    cross = k[0, 0] * c[1, 1] + k[1, 1] * c[0, 0] - k[0, 1] * c[1, 0] - k[1, 0] * c[0, 1]
+    at = cross / np.trace(c)  # stiffness of the swing: mass × its frequency squared
+    free = k - at * np.eye(2)
+    ratio = np.linalg.det(free) / (np.linalg.det(c) * (8000 * np.pi / 30) ** 2)  # of whirl, squared
+    return float(np.sqrt(at * dam.clearance * _MIL / (_LOAD * ratio)))
+
+
 @evidence("another code")
 def checks() -> Iterator[Check]:
-    """Eccentricities of Table 6 at 8000 1/min; stiffness and damping of the first set.
+    """ε and thresholds of Table 6 at 8000 1/min; stiffness and damping of the first set.
 
     K_xy is a small difference: it is held to a share of K_xx. Ours lies a fifth above all three.
     """
     for dam in DAMS:
-        got = float(dam.at_rest(8000).eccentricity_ratio)
+        state = dam.at_rest(8000)
+        got = float(state.eccentricity_ratio)
         yield Check(f"ε, {dam.name}", _SOURCE, dam.ratio, got, 0.02, "absolute")
+        yield Check(f"ω_s, {dam.name}", _SOURCE, dam.threshold, _threshold(state, dam), 0.1)
     for dam, rpm, kxx, kxy, kyx, kyy, cxx, cxy, cyy in COEFFICIENTS:
         state = dam.at_rest(rpm)
         k, c = state.stiffness / _POUND_PER_INCH, state.damping / _POUND_PER_INCH

@@ -15,24 +15,21 @@ from typing import Any
 
 import numpy as np
 
-from loadflow.journal import Contact, Film, Guembel, JournalBearing, Lubricant
+from loadflow.journal import JournalBearing
+from loadflow.rolling.motion.history import GRAVITY
 from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
-from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, RowOnRig
-from loadflow.tribology import AsperityContact
+from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, RowOnRig, Stage
 
 from .check import Check, evidence
 
 _MASSES = "the share of the load's losses follows the masses of the crank, which are not printed"
 _FAST, _SLOW = 6000.0, 500.0
-_REST = 10.0  # 1/min: a tenth of it changes the torque by 0.2 %
-_GRAVITY = 9.81  # m/s²
 
 
-def _uneven(bearing: RowOnRig, share: float = 0.5) -> RowOnRig:
-    """The row with pockets that are narrower by `share` on one side and wider on the other."""
-    left, right = bearing.gaps.pocket_gaps
-    pair = left * (1 - share), right * (1 + share)
-    return replace(bearing, gaps=replace(bearing.gaps, pocket_gaps=pair))
+def _uneven(bearing: RowOnRig, gaps: str = "pocket_gaps") -> RowOnRig:
+    """The row with gaps that are narrower by half on one side and wider on the other."""
+    left, right = getattr(bearing.gaps, gaps)
+    return replace(bearing, gaps=replace(bearing.gaps, **{gaps: (0.5 * left, 1.5 * right)}))
 
 
 # what is changed, of which bearing, printed change in %, tolerance in points, why refused
@@ -43,6 +40,10 @@ _STUDY = (
     ("μ′ 0.04 → 0.06", {"sliding": 0.06}, "pin", 20.0, 5.0, _MASSES),
     ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "main", 16.0, 5.0, _MASSES),
     ("μ_R 0.0005 → 0.001", {"rolling": 1e-3}, "pin", 14.0, 5.0, ""),
+    ("s₁ uneven by half", {"main": _uneven(MAIN, "end_gaps")}, "main", 0.0, 0.5, ""),
+    ("s₁ uneven by half", {"pin": _uneven(PIN, "end_gaps")}, "pin", 0.1, 0.1, ""),
+    ("s₂ uneven by half", {"main": _uneven(MAIN, "rib_gaps")}, "main", 0.0, 0.5, ""),
+    ("s₂ uneven by half", {"pin": _uneven(PIN, "rib_gaps")}, "pin", 0.0, 0.1, ""),
     ("s₃ uneven by half", {"main": _uneven(MAIN)}, "main", 8.5, 3.0, ""),
     ("s₃ uneven by half", {"pin": _uneven(PIN)}, "pin", 3.5, 3.0, ""),
     ("clearance 25 → 13 μm", {"pin": replace(PIN, clearance=13e-6)}, "pin", 0.0, 2.0, ""),
@@ -63,6 +64,21 @@ _FILM_STUDY: tuple[tuple[str, dict[str, Any], str, float, float, str], ...] = (
     ),
 )  # fmt: skip
 """The same of stage 2; the ranges that are printed hold over the speed."""
+
+_COLD, _STICKIER = {"temperature": 333.15}, {"adhesion": 0.15}
+_GROWS = "what an oil four times as thick adds in films is more of it in ours; no cause found"
+_OVER_SPEED: tuple[tuple[str, dict[str, Any], str, float, Stage, float, float, str], ...] = (
+    ("90 → 60 °C", _COLD, "main", _SLOW, "coulomb", 25.0, 10.0, ""),
+    ("90 → 60 °C", _COLD, "main", _SLOW, "film", 0.0, 10.0, _GROWS),
+    ("90 → 60 °C", _COLD, "main", _FAST, "film", 40.0, 10.0, _GROWS),
+    ("90 → 60 °C", _COLD, "pin", _SLOW, "film", 47.5, 10.0, _GROWS),
+    ("90 → 60 °C", _COLD, "pin", _FAST, "film", 47.5, 10.0, _GROWS),
+    ("μ 0.12 → 0.15", _STICKIER, "main", _SLOW, "coulomb", 12.0, 3.0, _MASSES),
+    ("μ 0.12 → 0.15", _STICKIER, "pin", _SLOW, "coulomb", 12.0, 3.0, _MASSES),
+    ("μ′ 0.04 → 0.06", {"sliding": 0.06}, "main", _SLOW, "coulomb", 3.0, 3.0, ""),
+)
+"""The same at the ends of the speed, with its stage: at low speed the main bearings of stage 2 take
+no notice of the oil; μ′ adds less than 6 % everywhere."""
 
 
 def of(part: str, found: FrictionTorque) -> float:
@@ -91,10 +107,12 @@ def checks() -> Iterator[Check]:
         got = 100 * (of(part, found) / of(part, usual) - 1)
         label, source = f"{name}, {part}, {_FAST:g}/min", "ch. 8.3.1, masses assumed"
         yield Check(label, source, printed, got, tolerance, "absolute", "%", why)
-    cold = replace(rig, temperature=333.15).friction_torque(_SLOW)
-    got = 100 * (of("main", cold) / of("main", rig.friction_torque(_SLOW)) - 1)
-    name = f"90 → 60 °C, main, {_SLOW:g}/min"
-    yield Check(name, "ch. 8.3.1, masses assumed", 25.0, got, 10.0, "absolute", "%")
+    for name, change, part, rpm, stage, printed, tolerance, why in _OVER_SPEED:
+        found, before = (one.friction_torque(rpm, stage) for one in (replace(rig, **change), rig))
+        got = 100 * (of(part, found) / of(part, before) - 1)
+        label = f"{name}, {part}, {rpm:g}/min" + (", stage 2" if stage == "film" else "")
+        source = "ch. 8.3.1, masses assumed"
+        yield Check(label, source, printed, got, tolerance, "absolute", "%", missed=why)
     yield from _study_of_films(rig)
     yield from _stages(rig)
     yield from _configurations()
@@ -137,36 +155,17 @@ def _configurations() -> Iterator[Check]:
         "speed at which both are alike", source, 1500.0, crossing, 250.0, "absolute", "1/min",
         "width and clearance of the journal bearing, and the masses, are not printed",
     )  # fmt: skip
-    slow = rollers.friction_torque(_REST)
-    rubbing = rubbing_torque(journal)
-    # the journal bearing takes the place of the rollers on the pin and of their cage
-    others = sum(torque for part, torque in slow.torques.items() if part[:3] not in ("pin", "cag"))
+    slow, rests = rollers.torque_at_rest(), journal.torque_at_rest()
     for name, printed, got in (
-        ("rollers", 0.17, slow.torque), ("journal bearing", 0.35, others + rubbing),
+        ("rollers", 0.17, slow.torque), ("journal bearing", 0.35, rests.torque),
     ):  # fmt: skip
         yield Check(
             f"torque at rest, {name} on the pin", "ch. 7.3", printed, got, 0.05, "absolute", "N m",
             "not stated which seals and bearings of the rig the measured curve contains",
         )  # fmt: skip
     assert journal.drive is not None
-    weight = _GRAVITY * (journal.drive.piston_mass + journal.drive.rod_mass)
+    weight = GRAVITY * (journal.drive.piston_mass + journal.drive.rod_mass)
     yield Check(
         "torque of the journal bearing at rest, μ W D/2", "Coulomb, of the weights", 0.12 * weight
-        * 24e-3, rubbing, 0.005, unit="N m", evidence="closed form",
+        * 24e-3, rests.torques["pin asperities"], 0.005, unit="N m", evidence="closed form",
     )  # fmt: skip
-
-
-def rubbing_torque(rig: CrankRig) -> float:
-    """Torque of a journal bearing on the pin as it comes to rest, N m.
-
-    Nothing presses there but the weights of piston and rod, which rest on the asperities: roughness
-    and modulus, which are assumed, decide how deep they sink, not what they rub.
-    """
-    assert rig.drive is not None
-    assert rig.pin_film is not None
-    asperities = AsperityContact(roughness=0.4e-6, contact_modulus=1e11, factor=1e-3)
-    contact = Contact(asperities, friction=rig.adhesion)
-    film = Film(Lubricant(rig.viscosity), Guembel(), grid=(48, 12), contact=contact)
-    weight = _GRAVITY * (rig.drive.piston_mass + rig.drive.rod_mass)
-    speed = 1e-5  # rad/s: 0.01 % of the weight is left to the oil
-    return float(rig.pin_film.equilibrium((weight, 0.0), speed, film).friction_power) / speed

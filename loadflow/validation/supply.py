@@ -37,7 +37,6 @@ def energy_checks() -> Iterator[Check]:
 
     bearing, film = reference_bearing()
     lines = two_lines(90.0, 0.7)
-    passed = {}
     for row in BASE_LOADS:
         if row.wind not in ENERGY:
             continue
@@ -46,15 +45,13 @@ def energy_checks() -> Iterator[Check]:
         state = bearing.equilibrium(load, row.omega, supply=lines, **film)
         balance = energy_balance(state, 1e6 * turbine)
         name, source = f"V = {row.wind} m/s", "Table 5-23"
-        passed[row.wind] = 6e4 * float(state.supply_flow)
+        passed = 6e4 * float(state.supply_flow)
         missed = "" if row.wind in _MET else _GROOVES
-        yield Check(f"Q, {name}", source, flow, passed[row.wind], 0.05, unit="l/min", missed=missed)
+        yield Check(f"Q, {name}", source, flow, passed, 0.05, unit="l/min", missed=missed)
         yield Check(f"P_loss, {name}", source, loss, float(balance.loss) / 1e3, 0.05, unit="kW")
         # P_turbine is printed to 0.005 MW, which is 0.02 % of η at 4 m/s
         got = 100 * float(balance.efficiency)
         yield Check(f"η, {name}", source, efficiency, got, 0.02, "absolute", "%")
-    falls = passed[24] / passed[4]
-    yield Check("Q at 24 m/s over Q at 4 m/s", "Table 5-23", 85.81 / 107.26, falls, 0.1)
     for wind, got in flows(*_TURNED).items():
         name = f"Q, V = {wind} m/s, grooves at ±96° of 0.695 B"
         expected, fitted = ENERGY[wind][-1], "Table 5-23, angle and length fitted"

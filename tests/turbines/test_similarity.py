@@ -99,6 +99,10 @@ def test_a_scene_scales_the_suspension_it_does_not_state_and_warns(tmp_path):
     assert "similarity" in scaling_note(scene)[0]
     assert "similarity" in unused_warnings(scene)[0]
     assert scaling_note(usual) == ()
+    files = scene.model_copy(
+        update={"loads": scene.loads.model_copy(update={"source": "files", "files": ["a.outb"]})}
+    )
+    assert "series of the files are taken as they are" in scaling_note(files)[0]
     file = tmp_path / "large.toml"
     file.write_text(scene.to_toml(), encoding="utf-8")
     assert read_scene(file).digest() == scene.digest()
