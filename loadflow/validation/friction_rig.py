@@ -29,7 +29,8 @@ _FAST, _SLOW = 6000.0, 500.0
 def _uneven(bearing: RowOnRig, gaps: str = "pocket_gaps") -> RowOnRig:
     """The row with gaps that are narrower by half on one side and wider on the other."""
     left, right = getattr(bearing.gaps, gaps)
-    return replace(bearing, gaps=replace(bearing.gaps, **{gaps: (0.5 * left, 1.5 * right)}))
+    uneven: dict[str, Any] = {gaps: (0.5 * left, 1.5 * right)}
+    return replace(bearing, gaps=replace(bearing.gaps, **uneven))
 
 
 # what is changed, of which bearing, printed change in %, tolerance in points, why refused
