@@ -265,6 +265,12 @@ BASES |= {
             {"stiffness": "journal", "housing_lateral": 4e9}]}}},
         "journal": FILM | {"bearings": ["N2"]}, "reduction": FEW, "results": ["journal.film"],
     },
+    "beam on a frame": {
+        "shaft": {"two_point": {"beam": {
+            "frame": {"file": "FRAME", "form": "compliance"},
+            "supports": [{"housing": {"file": "FOOT"}}, {}]}}},
+        "results": ["loads.statistics"],
+    },
     "heat over the film": film(grid=[12, 4], supply={"grooves": GROOVES}, heat={
         "kind": "film", "oil": OIL, "points": 3, "shell_transfer": 20.0, "shaft_transfer": 10.0,
         "growth": {"outer_diameter": 3.6, "held": True}}),
@@ -404,6 +410,7 @@ WALKED = {
     "further bearing": ("rolling.further",),
     **dict.fromkeys(("ring on legs", "ring of a file", "meshed ring"), ("rolling.outer_ring",)),
     "beam on bearings": ("shaft.two_point.beam",),
+    "beam on a frame": ("shaft.two_point.beam.frame", "shaft.two_point.beam.supports"),
     **dict.fromkeys(
         ("heat over the film", "heat over the film, closed", "heat and growth", "heat of an oil",
          "heat of a sump", "heat in motion"), ("journal.heat",)
@@ -442,7 +449,12 @@ def files(folder):
     cube_file(folder / "loads.h5", wind_speeds=(8.0, 9.0), seeds=(1, 2), steps=200)
     cube_file(folder / "other.h5", wind_speeds=(10.0, 11.0), seeds=(1, 2), steps=200)
     rng = np.random.default_rng(0)
-    for name, size, scale in (("ring", 144, 1e-11), ("shell", 48, 1e-14)):
+    for name, size, scale in (
+        ("ring", 144, 1e-11),
+        ("shell", 48, 1e-14),
+        ("frame", 12, 1e-10),
+        ("foot", 6, 1e10),
+    ):
         for number in ("", "_other"):
             part = rng.standard_normal((size, size))
             np.save(folder / f"{name}{number}.npy", scale * (part @ part.T / size + np.eye(size)))
@@ -454,7 +466,7 @@ def files(folder):
         influence = scale * np.kron(around, near)
         np.savez(folder / f"bore{number}.npz", angle=angle, axial=axial, influence=influence)
     words = {"CUBE": "loads.h5", "OTHER": "other.h5", "RING": "ring.npy", "SHELL": "shell.npy",
-             "BORE": "bore.npz"}  # fmt: skip
+             "BORE": "bore.npz", "FRAME": "frame.npy", "FOOT": "foot.npy"}  # fmt: skip
     alike = [word for word in words if word not in ("CUBE", "OTHER")]
     others = {f"OTHER {word}": words[word].replace(".", "_other.") for word in alike}
     return {word: str(folder / file) for word, file in (words | others).items()}
@@ -549,6 +561,10 @@ OTHERS = {
     "rolling.oscillation.mounting": ["pitch", "yaw, four-leg tower"],
     "shaft.two_point.beam": [{}],
     "shaft.two_point.beam.supports": [[{"radial": 1e9}, {}]],
+    "….housing": [{"file": "FOOT"}],
+    "….frame": [{"file": "FRAME"}, {"file": "FOOT"}],
+    "shaft.two_point.beam.frame.file": ["OTHER FRAME"],
+    "shaft.two_point.beam.supports.0.housing.file": ["OTHER FOOT"],
     "shaft.three_point.beam": [{}],
     "shaft.integrated.beam": [{}],
     "shaft.direct_drive.beam": [{}],

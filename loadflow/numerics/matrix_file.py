@@ -12,7 +12,9 @@ from loadflow.errors import InputError
 
 
 def read_matrix(path: str | Path, name: str = "matrix") -> NDArray[np.float64]:
-    r"""Read a matrix from a file of numpy (``.npy``) or rows of text; `name` is that of its key.
+    r"""Read a matrix from a file; `name` is that of its key.
+
+    The file is one of numpy (``.npy``), of values between commas (``.csv``), or rows of text.
 
     Raises
     ------
@@ -32,7 +34,7 @@ def read_matrix(path: str | Path, name: str = "matrix") -> NDArray[np.float64]:
     try:
         if Path(path).suffix == ".npy":
             return np.asarray(np.load(path, allow_pickle=False), dtype=float)
-        return np.loadtxt(path, ndmin=2)
+        return np.loadtxt(path, ndmin=2, delimiter="," if Path(path).suffix == ".csv" else None)
     except OSError as error:
         raise InputError(f"{name} = {str(path)!r}: cannot be read: {error}") from error
     except ValueError as error:

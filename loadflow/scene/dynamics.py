@@ -85,15 +85,21 @@ def turning(rolling: Rolling, shaft: Shaft) -> dict[str, FurtherBearing]:
 def check_dynamics(
     dynamics: Dynamics, results: Iterable[str], journal: Journal, rolling: Rolling, shaft: Shaft
 ) -> None:
-    """Raise unless the rolling bearings that are to be tabulated can be.
+    """Raise unless bearings that are to be tabulated can be, and the shaft line on them.
 
     Raises
     ------
     ValueError
         None turns with the rotor; one stands where a journal bearing is tabulated; its films have
-        no model.
+        no model. A shaft line on a frame given by a matrix.
     """
     wanted = {*results}
+    for name, concept in shaft.suspensions.items():
+        if wanted & {OF_FILMS, OF_ROLLING} and concept.beam is not None and concept.beam.matrices:
+            raise ValueError(
+                f"shaft.{name}.beam.{concept.beam.matrices[0]}: rotor dynamics do not know a "
+                f"matrix under the bearings; leave it out, or {OF_FILMS} and {OF_ROLLING}"
+            )
     if OF_ROLLING not in wanted:
         return
     parts = turning(rolling, shaft)

@@ -31,7 +31,8 @@ class Shaft(Section, BaseModel):
     bearing P of blade 1, with the loads of its root: rolling bearings that swing. With a ``beam``
     in its table the shaft bends, and tilts in its bearings; without ``sections`` it is as wide as
     the journal bearings. A support of the beam with ``stiffness = "journal"`` or ``"rolling"``
-    gives under each load as the bearing of that kind that the scene has there.
+    gives under each load as the bearing of that kind that the scene has there. What the bearings
+    stand on may be a matrix in a file: ``housing`` of a support, ``frame`` of the beam.
     """
 
     two_point: TwoPoint | None = None

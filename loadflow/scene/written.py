@@ -201,6 +201,8 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         found[room] = _each(data[room], path)
     if isinstance(places := data.get("bearings"), dict):
         found["bearings"] = {name: _each(part, path) for name, part in places.items()}
+    if isinstance(shaft := data.get("shaft"), dict):
+        found["shaft"] = {name: _on_frames(part, path) for name, part in shaft.items()}
     turbine = data.get("turbine")
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
         file = name if name in turbine_names() or not Path(name).suffix else path(name)
@@ -231,3 +233,25 @@ def _with_files(bearing: Any, path: Callable[[Any], Any]) -> Any:
         if isinstance(table, dict) and key in table:
             found[part] = table | {key: path(table[key])}
     return found
+
+
+def _on_frames(suspension: Any, path: Callable[[Any], Any]) -> Any:
+    """A suspension with the paths to the matrices under its bearings, if it has some."""
+    beam = suspension.get("beam") if isinstance(suspension, dict) else None
+    if not isinstance(beam, dict):
+        return suspension
+    found = beam | {"frame": _with_path(beam["frame"], path)} if "frame" in beam else dict(beam)
+    if isinstance(supports := beam.get("supports"), list):
+        found["supports"] = [
+            one | {"housing": _with_path(one["housing"], path)}
+            if isinstance(one, dict) and "housing" in one
+            else one
+            for one in supports
+        ]
+    return suspension | {"beam": found}
+
+
+def _with_path(table: Any, path: Callable[[Any], Any]) -> Any:
+    if not isinstance(table, dict) or "file" not in table:
+        return table
+    return table | {"file": path(table["file"])}

@@ -7,6 +7,7 @@ from .elastic import BearingModel as BearingModel
 from .former_names import BearingSeat as BearingSeat
 from .former_names import Seated as Seated
 from .former_names import seated_loads as seated_loads
+from .frame import FrameMatrix as FrameMatrix
 from .line import Disc as Disc
 from .line import LineSupport as LineSupport
 from .line import ShaftLine as ShaftLine

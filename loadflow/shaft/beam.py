@@ -6,11 +6,14 @@ import math
 from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
+import numpy as np
 from annotated_types import Ge, Gt, Lt, MinLen
+from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.former_names import renamed
 from loadflow.numerics.fields import check_one_of
+from loadflow.shaft.frame import FrameMatrix
 
 _ROUNDING = 1e-9
 """Of the length of a shaft, by which the sum of its sections may miss it."""
@@ -79,6 +82,8 @@ class BearingSupport:
     stiffness : {"given", "journal", "rolling"}
         Whether `radial` and `tilt` say how stiff the bearing is, or whether it follows, under each
         load, from the journal or the rolling bearing that stands there.
+    housing : FrameMatrix, optional
+        The housing, (6, 6), in place of its numbers.
 
     Examples
     --------
@@ -94,10 +99,11 @@ class BearingSupport:
     tilt: Annotated[float, Gt(0)] | None = None
     housing_tilt: Annotated[float, Gt(0)] | None = None
     stiffness: Literal["given", "journal", "rolling"] = "given"
+    housing: FrameMatrix | None = None
 
     def __post_init__(self) -> None:
         for name, value in vars(self).items():
-            number = name not in ("takes_moment", "stiffness")
+            number = name not in ("takes_moment", "stiffness", "housing")
             if number and value is not None and not 0 < value < math.inf:
                 raise InputError(f"{name} = {value}: must be greater than 0 and finite")
         check_one_of("stiffness", self.stiffness, ("given", "journal", "rolling"))
@@ -111,6 +117,31 @@ class BearingSupport:
                 f"takes_moment = False with tilt = {self.tilt}, housing_tilt = "
                 f"{self.housing_tilt} N m/rad: a bearing that takes no moment has none"
             )
+        if self.housing is None:
+            return
+        if self.housing.supports != 1:
+            size = 6 * self.housing.supports
+            raise InputError(
+                f"housing.file = {self.housing.file!r}: (6, 6) is needed for one support, got "
+                f"({size}, {size}); the matrix of all supports is `frame` of the beam"
+            )
+        if self.housing_lateral or self.housing_vertical or self.housing_tilt:
+            raise InputError(
+                f"housing_lateral = {self.housing_lateral}, housing_vertical = "
+                f"{self.housing_vertical} N/m, housing_tilt = {self.housing_tilt} N m/rad: leave "
+                f"them out, housing.file = {self.housing.file!r} says it all"
+            )
+
+    @property
+    def housing_compliance(self) -> NDArray[np.float64]:
+        """Motion of the bore by unit loads on it, (6, 6), in the order of `FrameMatrix`."""
+        if self.housing is not None:
+            return self.housing.compliance
+        stiffness = (
+            None, self.housing_lateral, self.housing_vertical,
+            None, self.housing_tilt, self.housing_tilt,
+        )  # fmt: skip
+        return np.diag([0.0 if k is None else 1 / k for k in stiffness])
 
 
 @renamed(seats="supports")
@@ -133,6 +164,9 @@ class Beam:
         Poisson's ratio.
     shear : bool
         Timoshenko's beam; without, that of Euler and Bernoulli.
+    frame : FrameMatrix, optional
+        What carries all housings, (6 n, 6 n) of n supports, so that a load on one moves the
+        others, too; without, it is rigid.
 
     Examples
     --------
@@ -147,6 +181,7 @@ class Beam:
     youngs_modulus: Annotated[float, Gt(0)] = 2.1e11
     poisson: Annotated[float, Ge(0), Lt(0.5)] = 0.3
     shear: bool = True
+    frame: FrameMatrix | None = None
 
     def __post_init__(self) -> None:
         if not self.sections:
@@ -166,7 +201,8 @@ class Beam:
         Raises
         ------
         loadflow.errors.InputError
-            Another number of supports than of bearings; a single bearing that takes no moment.
+            Another number of supports than of bearings, also of those of the frame; a single
+            bearing that takes no moment.
         """
         supports = self.supports or (BearingSupport(takes_moment=bearings == 1),) * bearings
         if len(supports) != bearings:
@@ -177,7 +213,29 @@ class Beam:
             raise InputError(
                 "supports[0].takes_moment = False: a single bearing must take the moment"
             )
+        if self.frame is not None and self.frame.supports != bearings:
+            needed, given = 6 * bearings, 6 * self.frame.supports
+            raise InputError(
+                f"frame.file = {self.frame.file!r}: ({needed}, {needed}) is needed for {bearings} "
+                f"bearings, got ({given}, {given})"
+            )
         return supports
+
+    @property
+    def matrices(self) -> tuple[str, ...]:
+        """Keys of the beam that are matrices of files."""
+        found = {f"supports[{k}].housing": one.housing for k, one in enumerate(self.supports)}
+        return tuple(key for key, part in ({"frame": self.frame} | found).items() if part)
+
+    def compliance_of_bores(self, bearings: int) -> NDArray[np.float64]:
+        """Motion of all bores by unit loads on them, (6 n, 6 n): housings on the frame."""
+        total = np.zeros((6 * bearings, 6 * bearings))
+        if self.frame is not None:
+            total += self.frame.compliance
+        for number, support in enumerate(self.supports_of(bearings)):
+            own = slice(6 * number, 6 * number + 6)
+            total[own, own] += support.housing_compliance
+        return total
 
     def on_rigid_bearings(self) -> Beam:
         """The beam with rigid bearings in place of those that are solved, in their housings."""

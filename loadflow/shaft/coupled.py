@@ -36,7 +36,7 @@ ACCURACY = 5e-3
 _CHUNK = 500  # loads iterated together
 _AGREED = 1e-7  # relative change of a reaction in the last iteration
 _LOST = 0.5  # share that must converge for more to be worth solving
-_KEPT = ("force", "moment", "displacement", "tilt", "curvature")
+_KEPT = ("force", "moment", "displacement", "tilt", "curvature", "bore_tilt")
 
 
 @renamed(quick="cheap")
@@ -161,7 +161,7 @@ class _Solved:
 
     Attributes
     ----------
-    values : ndarray, shape (k, 5, bearing, axis)
+    values : ndarray, shape (k, 6, bearing, axis)
         What `_KEPT` names.
     converged : ndarray of bool, shape (k,)
         Whether shaft and bearings agree.
@@ -241,7 +241,9 @@ class _Series:
     def places(self, rows: Rows) -> Floats:
         """Loads of the hub and states of the bearings, as far as they vary, (k, d)."""
         torque = 0 if self.concept.torque_support else 1
-        loads = [*self.force[1:], *self.moment[torque:]]
+        # a matrix under the bearings turns thrust into tilt
+        across = 0 if self.concept.beam and self.concept.beam.matrices else 1
+        loads = [*self.force[across:], *self.moment[torque:]]
         states = [bearing.state for bearing in self.bearings.values()]
         return evened(np.stack([*loads, *states], axis=1)[rows])
 
@@ -321,5 +323,5 @@ def _tangent(table: Floats) -> BearingModel:
 
 
 def _arrays(found: xr.Dataset) -> Floats:
-    """What is kept of each sample, (n, 5, bearing, axis)."""
+    """What is kept of each sample, (n, 6, bearing, axis)."""
     return np.moveaxis(np.stack([found[name].values for name in _KEPT]), -1, 0).copy()

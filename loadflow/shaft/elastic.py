@@ -31,6 +31,9 @@ answer has NaN."""
 
 _TURN = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]], dtype=float)
 """From (y, z, θy, θz) to (v, w, v′, w′)."""
+_OF_BORE = (1, 2, 5, 4)
+_SIGN = np.array([1.0, 1.0, 1.0, -1.0])
+"""Of (x, y, z, θx, θy, θz), what v, w, v′ and w′ are, and their signs."""
 _ITERATIONS = 50
 _STUCK = 2.0**-7  # share of a step that is none
 _FREE = 1e6  # over the flexibility of the shaft: a support that hardly takes a moment
@@ -48,6 +51,8 @@ class ShaftMotion:
         Of the shaft, m and rad.
     curvature : ndarray
         Second derivative of the displacement along the shaft, 1/m.
+    bore_tilt : ndarray
+        Of the bearings' bores, as housings and frame turn under all loads, rad.
     convergence : Convergence
         Of the iteration with the bearings' own models; the residual is the largest change of a
         reaction, relative to the largest reaction.
@@ -60,6 +65,7 @@ class ShaftMotion:
     displacement: Floats
     tilt: Floats
     curvature: Floats
+    bore_tilt: Floats
     convergence: Convergence
     converged: NDArray[np.bool_]
 
@@ -83,6 +89,7 @@ class Iteration:
 def elastic_reactions(
     beam: Beam,
     positions: tuple[float, ...],
+    locating: int,
     places: Floats,
     forces: Floats,
     hub_moment: Floats,
@@ -97,6 +104,8 @@ def elastic_reactions(
         Shaft and supports.
     positions : tuple of float
         Of the bearings, m from the hub centre.
+    locating : int
+        Number of the bearing that takes the force along the shaft.
     places : ndarray, shape (p,)
         Where forces act, m from the hub centre.
     forces : ndarray, shape (p, 3, n)
@@ -134,6 +143,11 @@ def elastic_reactions(
     support, component = np.array(parts).T
     station, plane = count + 1 + support + bearings * (component // 2), component % 2
     arms = np.where(np.repeat([[0, 1]], 2, axis=1) == plane[:, None], np.tile(rigid[station], 2), 0)
+    # the force along the shaft moves housings and frame as well, and no reaction moves it
+    soft, thrust = beam.compliance_of_bores(bearings), forces[:, 0].sum(axis=0)
+    bore = np.zeros((support.size, 6 * bearings))
+    bore[np.arange(support.size), 6 * support + np.array(_OF_BORE)[component]] = _SIGN[component]
+    pushed = np.outer(soft[:, 6 * locating], thrust)
     redundant = _Redundant(
         support=support,
         component=component,
@@ -142,6 +156,8 @@ def elastic_reactions(
         due=np.concatenate([rigid.T @ side for side in loads]),
         bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
         free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
+        housing=bore @ soft @ bore.T,
+        pushed=bore @ pushed,
     )
     reaction, base, convergence, converged = redundant.solve(supports, models, iteration)
 
@@ -153,8 +169,9 @@ def elastic_reactions(
     motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
     bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
     bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
+    turned = (soft @ bore.T @ reaction + pushed).reshape(bearings, 6, -1)[:, 3:]
     return ShaftMotion(
-        *_across(reactions), *_across(motion), _across(bow)[0], convergence, converged
+        *_across(reactions), *_across(motion), _across(bow)[0], turned, convergence, converged
     )
 
 
@@ -184,6 +201,10 @@ class _Redundant:
         Motion by bending under unit reactions of the shaft on the supports, turned around.
     free : ndarray, shape (r, n)
         Motion by bending under the loads alone.
+    housing : ndarray, shape (r, r)
+        Compliance of housings and frame.
+    pushed : ndarray, shape (r, n)
+        Motion of housings and frame by the force along the shaft.
     """
 
     support: NDArray[np.int64]
@@ -193,6 +214,8 @@ class _Redundant:
     due: Floats
     bent: Floats
     free: Floats
+    housing: Floats
+    pushed: Floats
 
     def solve(
         self,
@@ -201,13 +224,13 @@ class _Redundant:
         iteration: Iteration,
     ) -> tuple[Floats, Floats, Convergence, NDArray[np.bool_]]:
         """Reactions (r, n), motion of the shaft's end (4, n), how the iteration went, and where."""
-        own, housing = (self._compliance(supports, names) for names in (_BEARING, _HOUSING))
-        bearings = _Bearings(self, models, housing, own)
+        own = self._compliance(supports)
+        bearings = _Bearings(self, models, own)
         # a model that takes a moment starts nearly without: bearings harden, and a step from the
         # soft side never goes too far
         asked = np.isin(self.support, list(models)) & (self.component > 1) & (own == 0)
         first = own + np.where(asked, _FREE * np.diag(self.bent), 0.0)
-        compliance, offset = np.diag(housing + first)[None], np.zeros_like(self.free)
+        compliance, offset = (self.housing + np.diag(first))[None], self.pushed
         reaction = self._balance(compliance, offset)
         converged, convergence = np.ones(self.free.shape[1], dtype=bool), Convergence(True, 0.0, 0)
         if models:
@@ -283,8 +306,11 @@ class _Redundant:
         share = np.linalg.solve(own.T @ total @ own, (own.T @ gap).T[..., None])
         return needed + own @ share[..., 0].T
 
-    def _compliance(self, supports: tuple[BearingSupport, ...], names: tuple[str, ...]) -> Floats:
-        stiffness = [getattr(supports[k], names[c]) for k, c in zip(self.support, self.component)]
+    def _compliance(self, supports: tuple[BearingSupport, ...]) -> Floats:
+        """Of the bearings without a model (r,)."""
+        stiffness = [
+            getattr(supports[k], _BEARING[c]) for k, c in zip(self.support, self.component)
+        ]
         return np.array([0.0 if k is None else 1 / k for k in stiffness])
 
 
@@ -298,13 +324,12 @@ class _Bearings:
         What the components of the supports are.
     models : mapping of int
         Models of bearings by number.
-    housing, own : ndarray, shape (r,)
-        Compliance of the housings, and of bearings without a model.
+    own : ndarray, shape (r,)
+        Compliance of bearings without a model.
     """
 
     rows: _Redundant
     models: Mapping[int, BearingModel]
-    housing: Floats
     own: Floats
 
     def tangent(self, reaction: Floats) -> tuple[Floats, Floats]:
@@ -319,11 +344,10 @@ class _Bearings:
             motion, soft = _ask(model, force, moment, number, rows.size)
             compliance[:, rows[:, None], rows] = soft
             offset[rows] = (motion - np.einsum("nrs,sn->nr", soft, reaction[rows])).T
-        return np.diag(self.housing) + compliance, offset
+        return self.rows.housing + compliance, self.rows.pushed + offset
 
 
 _BEARING = ("radial", "radial", "tilt", "tilt")
-_HOUSING = ("housing_lateral", "housing_vertical", "housing_tilt", "housing_tilt")
 
 
 def _ask(

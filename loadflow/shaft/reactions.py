@@ -65,7 +65,8 @@ def bearing_loads(
         `force` (N) and `moment` (N m) over (bearing, axis, time), with the coordinate
         `position` (bearing), m from the hub centre. The torque passes by all bearings. With a beam
         also `displacement` (m), `tilt` (rad) and `curvature` (1/m) of the shaft in each bearing,
-        and the attributes `converged`, `residual` and `iterations`; with models also `settled`
+        the `bore_tilt` (rad) of that bearing on its housing and frame, and the attributes
+        `converged`, `residual` and `iterations`; with models also `settled`
         (time), whether shaft and bearings agree.
 
     Raises
@@ -107,7 +108,14 @@ def bearing_loads(
         pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
         iteration = Iteration(tolerance, strict)
         motion = elastic_reactions(
-            concept.beam, concept.positions, places, pushes, moment, numbered, iteration
+            concept.beam,
+            concept.positions,
+            concept.locating,
+            places,
+            pushes,
+            moment,
+            numbered,
+            iteration,
         )
         forces, moments = motion.force, motion.moment
     forces[concept.locating, 0] = total[0]
@@ -193,6 +201,7 @@ def _dataset(
             "displacement": (motion.displacement, "m", "displacement of the shaft at the bearing"),
             "tilt": (motion.tilt, "rad", "rotation of the shaft at the bearing"),
             "curvature": (motion.curvature, "1/m", "curvature of the shaft at the bearing"),
+            "bore_tilt": (motion.bore_tilt, "rad", "rotation of the bore of the bearing"),
         }
         attrs = vars(motion.convergence) | {"converged": int(motion.convergence.converged)}
     place = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import fields, replace
 from typing import Any, TypeVar
 
+from loadflow.errors import InputError
 from loadflow.shaft.beam import Beam, BearingSupport, ShaftSection
 from loadflow.shaft.options import Concept
 from loadflow.turbines.similarity import check_positive
@@ -30,7 +31,7 @@ def scaled_suspension(concept: Suspension, factor: float) -> Suspension:
     Raises
     ------
     InputError
-        A factor that is not positive and finite.
+        A factor that is not positive and finite; a housing or frame given by a matrix.
 
     Examples
     --------
@@ -51,6 +52,11 @@ def scaled_suspension(concept: Suspension, factor: float) -> Suspension:
 
 
 def _beam(beam: Beam, factor: float) -> Beam:
+    if beam.matrices:
+        raise InputError(
+            f"{beam.matrices[0]}: a matrix of a file does not scale; leave it out, or give that of "
+            "the other size afterwards"
+        )
     return replace(
         beam,
         sections=tuple(_section(section, factor) for section in beam.sections),

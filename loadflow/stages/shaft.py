@@ -33,7 +33,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     """Return `force` and `moment` (bearing, axis, time) of all suspensions of the scene.
 
     Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
-    are NaN in bearings of a rigid shaft beside it. `tilt` is that against the housing. Where the
+    are NaN in bearings of a rigid shaft beside it. `tilt` is that against the bore. Where the
     stiffness of supports comes from the scene's bearings, `converged` tells in which samples it
     does; in the others, such as of a film at standstill, these bearings are rigid.
     """
@@ -62,7 +62,7 @@ def _suspended(
 ) -> xr.Dataset:
     supports = {name: s for name, s in scene.shaft.coupled.items() if name in concept.bearings}
     if not supports:
-        return _against_housings(concept, reactions(concept, force, moment, tilt=tilt))
+        return _against_bores(reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
     bearings = {
@@ -71,7 +71,7 @@ def _suspended(
         else _rolling(scene, name, thrust[name], support.takes_moment)
         for name, support in supports.items()
     }
-    return _against_housings(concept, coupled_loads(concept, force, moment, bearings, tilt=tilt))
+    return _against_bores(coupled_loads(concept, force, moment, bearings, tilt=tilt))
 
 
 def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
@@ -108,13 +108,12 @@ def _rolling(scene: Scene, name: str, thrust: Floats, tilting: bool) -> CoupledB
     )
 
 
-def _against_housings(concept: Concept, found: xr.Dataset) -> xr.Dataset:
-    """`found`, with the tilt of the shaft in each bearing less that of its housing."""
-    if concept.beam is None or not concept.beam.supports:
+def _against_bores(found: xr.Dataset) -> xr.Dataset:
+    """`found`, with the tilt of the shaft in each bearing less that of the bearing's bore."""
+    if "bore_tilt" not in found:
         return found
-    soft = np.array([1 / (support.housing_tilt or np.inf) for support in concept.beam.supports])
-    turned = found["moment"] * xr.DataArray(soft, dims="bearing")
-    return found.assign(tilt=(found["tilt"] - turned).assign_attrs(found["tilt"].attrs))
+    tilt = (found["tilt"] - found["bore_tilt"]).assign_attrs(found["tilt"].attrs)
+    return found.assign(tilt=tilt).drop_vars("bore_tilt")
 
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
