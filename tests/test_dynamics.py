@@ -302,7 +302,8 @@ def test_the_command_line_writes_the_table_of_a_rolling_bearing(tmp_path):
 def test_the_page_tells_stiffness_in_the_frame_of_the_shaft_whose_z_points_up():
     dims, entries = ("case", "bearing", "dof", "along"), [[[[1e9, 2e9], [3e9, 4e9]]]]
     coords = {"case": ["one"], "bearing": ["N"], "dof": ["x", "y"], "along": ["x", "y"]}
-    data = xr.Dataset({"stiffness": (dims, entries), "damping": (dims, entries)}, coords)
+    values = {"stiffness": (dims, entries), "damping": (dims, entries), "whirl": 1.0}
+    data = xr.Dataset(values, coords)
     [table] = dynamics_section(data).tables
     assert table.heads[1:5] == ["K zz, GN/m", "K zy, GN/m", "K yz, GN/m", "K yy, GN/m"]
     assert table.rows[0][1:5] == ["1", "-2", "-3", "4"]
