@@ -56,7 +56,7 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
-OutFolder = Annotated[Path, typer.Option("--out", help="Folder for runs.")]
+OutFolder = Annotated[Path, typer.Option("--out", "-o", help="Folder for runs.")]
 RunName = Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")]
 Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")]
 Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]

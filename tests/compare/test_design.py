@@ -319,7 +319,7 @@ def test_the_command_line_searches(cube, found, tmp_path, capsys):
     )
     keys = ["--key", "geometry.roller_length=0.11:0.16", "--key", "geometry.rollers=20:24"]
     with pytest.raises(SystemExit, match="0"):
-        main(["design", str(scene), "--out", str(runs), "--workers", "1", "--json", *keys])
+        main(["design", str(scene), "-o", str(runs), "--workers", "1", "--json", *keys])
     said = capsys.readouterr()
     assert "searches two-spherical (two spherical" in said.err
     told = json.loads(said.out)
