@@ -47,6 +47,15 @@ def test_help_keeps_what_stands_in_brackets(name):
     ]
 
 
+def test_help_fits_a_terminal_of_80_columns_whole(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    for name in ("", *COMMAND.commands):
+        told = call(capsys, *filter(None, [name]), "--help").out
+        assert max(map(len, told.splitlines())) <= 80
+        assert "…" not in told, name  # a word that is wider than its column is cut
+        assert "bool" not in told.lower(), name  # a switch takes no value
+
+
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
 def test_completion_is_written_for_the_shell(shell, tmp_path):
     away = {"HOME": str(tmp_path), "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"}

@@ -56,7 +56,8 @@ EXAMPLE = {
     "run": "loadflow run scene.toml --loads 'path/to/*.outb'",
     "plan": "loadflow plan scene.toml --pilot",
     "compare": "loadflow compare scene.toml --candidate two-spherical",
-    "design": "loadflow design scene.toml --candidate journal-cylindrical",
+    "design": "loadflow design scene.toml --candidate journal-cylindrical "
+    "--key geometry.diameter=1.0:1.6 --key lubricant.viscosity=0.1,0.2,0.3",
     "init": "loadflow init dlc_1_1 -o my_turbine.toml",
     "scene": "loadflow scene --show scene.toml",
     "list": "loadflow list oils",

@@ -47,8 +47,8 @@ def design(
         list[str] | None,
         typer.Option(
             "--key",
-            help="What varies: geometry.diameter=1.0:1.6, or lubricant.viscosity=0.1,0.2,0.3; "
-            "may be repeated, and takes the place of \\[design.keys].",
+            help="What varies, KEY=LOW:HIGH or KEY=A,B,C, of bearings or friction; may be "
+            "repeated, and takes the place of \\[design.keys].",
         ),
     ] = None,
     margin: Annotated[
