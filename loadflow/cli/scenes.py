@@ -142,7 +142,12 @@ def plan(
     from loadflow.planning.plan import make_plan
     from loadflow.planning.seeds_wanted import seeds_wanted, sentences
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
-    from loadflow.scene.unused import unused_keys, unused_warnings
+    from loadflow.scene.unused import (
+        asks_for_friction,
+        friction_note,
+        unused_keys,
+        unused_warnings,
+    )
 
     if not measure:
         refuse("only --pilot works long", "verbose")
@@ -194,7 +199,8 @@ def plan(
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
-    for warning in [*wanted.taken, *unused_warnings(wanted)]:
+    doubts = friction_note(wanted) if asks_for_friction(wanted) else ()
+    for warning in [*wanted.taken, *doubts, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
