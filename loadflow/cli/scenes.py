@@ -16,6 +16,7 @@ from loadflow.cli.base import (
     Scheduler,
     Workers,
     app,
+    caught_warnings,
     check_workers,
     err,
     out,
@@ -336,7 +337,12 @@ def validate(
     if folder and not names:
         raise InputError("--folder: name the table whose numbers need the files, e.g. turbines")
     tables = names or known
-    rows = [(name, check) for name in tables for check in validation.all_checks(name, folder)]
+    rows: list[tuple[str, Any]] = []
+    with progress(quiet=as_json) as show, caught_warnings():  # the rows say what they hold
+        for k, name in enumerate(tables):
+            show("tables", k, len(tables))
+            rows += [(name, check) for check in validation.all_checks(name, folder)]
+        show("tables", len(tables), len(tables))
     bad = sum(check.outcome == "out" for _, check in rows)
     shown = [row for row in rows if not failed or row[1].outcome == "out"]
     if as_json and summary:
