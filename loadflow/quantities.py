@@ -39,6 +39,7 @@ READABLE = {
     "N": (1e-3, "kN"),
     "N m": (1e-6, "MN m"),
     "Pa": (1e-6, "MPa"),
+    "Pa s": (1e3, "mPa s"),
     "W": (1e-3, "kW"),
     "h": (1 / HOURS_PER_YEAR, "years"),
     "rad/s": (30 / math.pi, "1/min"),

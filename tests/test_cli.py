@@ -109,6 +109,18 @@ def test_validate_shows_only_what_failed():
     assert "closed form" in done.stdout  # of the counts
 
 
+def test_validate_tells_how_far_it_is_and_no_warnings_of_its_own_cases():
+    done = loadflow("validate", "supply", "seeds", "--summary")  # films of supply are not resolved
+    assert "tables: 0 of 2" in done.stderr
+    assert "tables: 2 of 2" in done.stderr
+    assert "warning" not in done.stderr
+
+
+def test_names_with_a_comma_are_told_from_one_another():
+    told = loadflow("bench", "nope").stderr.replace("\n", " ")
+    assert "journal, 'journal, transient', thrust" in told
+
+
 def test_an_unknown_table_lists_the_known_ones():
     done = loadflow("validate", "magic")
     assert done.returncode == 2

@@ -78,6 +78,25 @@ def test_lists_are_listed_and_an_unknown_one_is_refused(capsys):
     assert "did you mean oils?" in call(capsys, "list", "oil", code=2).err
 
 
+def test_a_list_can_be_asked_for_one_turbine_or_stage(capsys):
+    found = json.loads(call(capsys, "list", "bearings", "nrel-5mw", "--json").out)
+    assert {row["kind or turbine"] for row in found} == {"nrel-5mw"}
+    assert "two-spherical" in {row["name"] for row in found}
+    assert {row["stage"] for row in json.loads(call(capsys, "list", "rungs", "wind", "--json").out)}
+    told = call(capsys, "list", "bearings", "nrel-5m", code=2).err
+    assert "did you mean nrel-5mw?" in told
+
+
+def test_a_source_of_several_bearings_is_printed_once(capsys):
+    told = call(capsys, "list", "bearings").out
+    notes = [line.partition("  ")[2] for line in told.splitlines() if line[:1].isdigit()]
+    assert len(notes) == len(set(notes))
+    _, rows = LISTS["bearings"]()
+    assert all(row[-1].startswith(tuple(notes)) for row in rows if row[-1])
+    assert "`" not in told  # words for users, not those of the code
+    assert "class ISO VG 320 (ISO 3448)" in " ".join(call(capsys, "list", "oils").out.split())
+
+
 def test_every_kind_of_bearing_and_every_result_is_said_in_words():
     _, bearings = LISTS["bearings"]()
     assert all(told for _, _, told, _ in bearings)

@@ -370,6 +370,12 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         (["loads", "--wind-speed", "fast", "-o", "OUT"], "Invalid value for '--wind-speed'"),
         (["wind", 90], "no gust"),
         (["wind", 12, "--category", "Q"], "turbulence category 'Q' is unknown"),
+        (
+            ["journal"],
+            "give --diameter, --width, --relative-clearance and either --viscosity or --oil, or a "
+            "scene with --scene; for example: loadflow journal --diameter 1.2",
+        ),
+        (["journal", *JOURNAL[:6]], "give either --viscosity or --oil, or a scene with --scene;"),
         (["journal", *JOURNAL], "give --force-x and --speed-rpm"),
         (["journal", *JOURNAL, "--oil", "mineral-vg-320"], "give either --viscosity or --oil"),
         (["journal", *JOURNAL[:6], "--oil", "olive"], "lubricant: must be one of"),
@@ -380,7 +386,7 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         ),
         (
             ["journal", *JOURNAL, "--diameter", -3, "--force-x", 1, "--speed-rpm", 1],
-            "diameter = -3.0 is not allowed",
+            "diameter = -3.0 is not allowed: must be > 0 m",
         ),
         (["rolling", *ROLLING, "--groove-radius", 0.01], "groove_radius"),
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--force-z", "nan"], "nan"),

@@ -1,5 +1,6 @@
 """What a person meets at the command line: help, examples, completion, other code pages."""
 
+import json
 import os
 import shlex
 import subprocess
@@ -12,6 +13,7 @@ from synthetic import cube_file
 
 from loadflow.cli import EXAMPLE, main
 from loadflow.cli.base import app
+from loadflow.cube import examine
 
 COMMAND = typer.main.get_command(app)
 
@@ -43,6 +45,15 @@ def test_help_keeps_what_stands_in_brackets(name):
     assert [Text.from_markup(one).plain for one in helps] == [
         one.replace("\\[", "[") for one in helps
     ]
+
+
+def test_help_fits_a_terminal_of_80_columns_whole(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+    for name in ("", *COMMAND.commands):
+        told = call(capsys, *filter(None, [name]), "--help").out
+        assert max(map(len, told.splitlines())) <= 80
+        assert "…" not in told, name  # a word that is wider than its column is cut
+        assert "bool" not in told.lower(), name  # a switch takes no value
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])
@@ -99,3 +110,73 @@ def test_a_run_needs_neither_affinity_nor_utf8(tmp_path):
     done = elsewhere("run", scene, "--loads", cube, "--out", tmp_path, "--workers", 2)
     assert done.returncode == 0, done.stderr
     assert not (tmp_path / "away" / "report.html").read_text(encoding="utf-8").isascii()
+
+
+# What Windows has not: `fcntl` and `resource`. The lock is that of the lines for Windows; the one
+# call that they make there, a byte locked without waiting, is made of what this system has for it.
+WINDOWS = """
+import os, sys, types
+from pathlib import Path
+for name in ("fcntl", "resource"):
+    sys.modules[name] = None
+here = sys.platform
+sys.platform = "win32"
+sys.modules["msvcrt"] = types.SimpleNamespace(
+    LK_NBLCK=0, locking=lambda handle, mode, size: os.lockf(handle, os.F_TLOCK, size)
+)
+from loadflow.running.lock import locked
+sys.platform = here
+del sys.modules["msvcrt"]
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "lockf"), reason="the stand-in is made of lockf")
+def test_a_folder_is_locked_without_fcntl(tmp_path):
+    take = f"{WINDOWS}with locked(Path(sys.argv[1])): print('held', flush=True); sys.stdin.read(1)"
+    arguments = [sys.executable, "-c", take, str(tmp_path)]
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+    with subprocess.Popen(arguments, **pipes) as holder:
+        assert holder.stdout.readline() == "held\n"
+        told = subprocess.run(arguments, capture_output=True, text=True, check=False, input="x")
+        assert f"process {holder.pid} on" in told.stderr
+        assert "held" not in told.stdout
+        holder.communicate("x")
+    assert subprocess.run(arguments, input=b"x", check=False).returncode == 0  # it ended with it
+
+
+@pytest.mark.parametrize("damaged", [False, True])
+def test_a_file_is_examined_without_limits_of_memory(damaged, tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,))
+    if damaged:
+        cube.write_bytes(cube.read_bytes()[:-5000])
+    code = """
+import runpy, sys
+sys.modules["fcntl"] = sys.modules["resource"] = None
+runpy.run_path(sys.argv[1], run_name="__main__")
+"""
+    done = subprocess.run(
+        [sys.executable, "-c", code, examine.__file__], input=json.dumps(str(cube)) + "\n",
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    ready, *places, answer = map(json.loads, done.stdout.splitlines())
+    assert ready == "ready"
+    assert bool(places) is not damaged  # a file that is cut cannot be opened
+    assert bool(answer) is damaged
+
+
+@pytest.mark.skipif(not hasattr(os, "lockf"), reason="the stand-in is made of lockf")
+def test_a_run_needs_neither_fcntl_nor_resource(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2))
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
+        'name = "away"\nresults = ["loads.statistics"]\n[loads]\nsource = "files"\n',
+        encoding="utf-8",
+    )
+    code = f"{WINDOWS}from loadflow.cli import main\nmain(sys.argv[1:])"
+    arguments = ("run", scene, "--loads", cube, "--out", tmp_path, "--workers", 1)
+    done = subprocess.run(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert (tmp_path / "away" / "result.h5").exists()

@@ -9,7 +9,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.rolling import main_bearings
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.scene.unused import unused_warnings
+from loadflow.scene.unused import asks_for_friction, friction_note, unused_warnings
 from loadflow.stages import friction, loads
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.registry import STAGES
@@ -178,9 +178,19 @@ def test_the_modified_life_has_the_oil_at_the_temperature_of_the_heat_balance():
     ],
 )
 def test_friction_that_is_not_counted_is_told(given, left_out):
-    told = [said for said in unused_warnings(short(friction=given)) if "not counted" in said]
+    told = friction_note(short(friction=given))
     assert len(told) == (left_out is not None)
     assert all(said.startswith(f"friction: {left_out} of the rolling") for said in told)
+
+
+def test_friction_that_nobody_asked_for_is_not_doubted():
+    assert asks_for_friction(short())
+    assert asks_for_friction(make_scene({"rolling": {}}))
+    empty, other = make_scene({}), make_scene({"results": ["loads.statistics"], "rolling": {}})
+    assert friction_note(empty)  # which a run, that computes it, tells
+    assert not asks_for_friction(empty)
+    assert not asks_for_friction(other)
+    assert unused_warnings(empty) == []
 
 
 def test_an_unknown_lubricant_is_refused_with_those_there_are():

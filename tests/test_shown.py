@@ -1,6 +1,7 @@
 """Results that show themselves: figures, tables for notebooks, rooms, the accessor of cubes."""
 
 import inspect
+import re
 import subprocess
 import sys
 
@@ -378,3 +379,15 @@ def test_temperatures_are_drawn_in_degrees_and_their_differences_in_kelvin():
     assert unit == "°C"
     np.testing.assert_allclose(values, [41.5, 75.0])
     assert plots.readable(warm.rename("oil_rise"))[1] == "K"
+
+
+def test_viscosities_are_shown_in_the_unit_of_oil_data():
+    heat = Heat("mineral-vg-320", inlet_temperature=313.15)
+    table = BEARING.equilibrium((1e3, 0.0), 50.0, heat=heat)._repr_html_()
+    found = re.search(r"viscosity at the effective temperature (\S+) (\S+ s) ", _words_of(table))
+    assert found is not None
+    assert (float(found[1]) > 1.0, found[2]) == (True, "mPa s")  # not 0.035 Pa s
+
+
+def _words_of(table):
+    return " ".join(re.sub("<[^>]*>", " ", table).split())

@@ -23,6 +23,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
 from loadflow.cli.base import app, err, warnings_in_a_line
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
+from loadflow.studies.journal_film import EXAMPLE as OF_A_JOURNAL_BEARING
 
 GROUPS = {
     "Scenes and runs": (
@@ -56,7 +57,8 @@ EXAMPLE = {
     "run": "loadflow run scene.toml --loads 'path/to/*.outb'",
     "plan": "loadflow plan scene.toml --pilot",
     "compare": "loadflow compare scene.toml --candidate two-spherical",
-    "design": "loadflow design scene.toml --candidate journal-cylindrical",
+    "design": "loadflow design scene.toml --candidate journal-cylindrical "
+    "--key geometry.diameter=1.0:1.6 --key lubricant.viscosity=0.1,0.2,0.3",
     "init": "loadflow init dlc_1_1 -o my_turbine.toml",
     "scene": "loadflow scene --show scene.toml",
     "list": "loadflow list oils",
@@ -68,8 +70,7 @@ EXAMPLE = {
     "seeds": "loadflow seeds loads.h5 -o seeds.html",
     "reduce": "loadflow reduce loads.h5 -o reduced --method periodic",
     "lifetime": "loadflow lifetime loads.h5 -o lifetime",
-    "journal": "loadflow journal --diameter 1.2 --width 1 --relative-clearance 1e-3 "
-    "--viscosity 0.2 --force-x 1e6 --speed-rpm 12",
+    "journal": OF_A_JOURNAL_BEARING,
     "thrust": "loadflow thrust --pads 10 --inner-radius 0.75 --outer-radius 1.05 "
     "--pad-angle-deg 32 --taper 6e-5 --viscosity 0.2 --force 9e5 --speed-rpm 12",
     "cone": "loadflow cone --half-angle-deg 28.6 --slant 1.59 2.59 --clearance 2e-4 "

@@ -14,7 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from loadflow.cli.stated import App, refuse, stated
+from loadflow.cli.stated import App, Commands, refuse, stated
 from loadflow.errors import InputError, ValidityWarning
 
 if TYPE_CHECKING:
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from loadflow.cube import Cube
 
 app = App(
+    cls=Commands,
     help="From wind and load series to the main bearing of a wind turbine.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
@@ -41,7 +42,9 @@ def _print_version(wanted: bool) -> None:
 def common(
     version: Annotated[
         bool,
-        typer.Option("--version", callback=_print_version, is_eager=True, help="Print it."),
+        typer.Option(
+            "--version", callback=_print_version, is_eager=True, help="Print the version."
+        ),
     ] = False,
 ) -> None:
     """What all commands share."""
@@ -56,7 +59,7 @@ CubeFile = Annotated[
 TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
-OutFolder = Annotated[Path, typer.Option("--out", help="Folder for runs.")]
+OutFolder = Annotated[Path, typer.Option("--out", "-o", help="Folder for runs.")]
 RunName = Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")]
 Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")]
 Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]

@@ -25,8 +25,7 @@ from loadflow.cli.base import (
 from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
-from loadflow.errors import InputError, LoadflowError
-from loadflow.numerics.fields import none_such
+from loadflow.errors import LoadflowError
 
 
 @app.command()
@@ -121,10 +120,14 @@ def list_known(
     what: Annotated[str | None, typer.Argument(help="What to list; left out: what there is.")] = (
         None
     ),
+    only: Annotated[
+        str | None,
+        typer.Argument(help="Only rows of this, as the first column has it: a turbine, a stage."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """List what scenes may name: turbines, oils, bearings, rungs, effects and others."""
-    from loadflow.cli.lists import LISTS
+    from loadflow.cli.lists import LISTS, rows_of, with_notes
 
     if what is None:
         rows = [(name, (one.__doc__ or "").strip().splitlines()[0]) for name, one in LISTS.items()]
@@ -133,10 +136,11 @@ def list_known(
         else:
             print_rows(("loadflow list …", ""), rows)
         return
-    if what not in LISTS:
-        raise InputError(none_such("list", [what], LISTS))
-    heads, found = LISTS[what]()
+    heads, found = rows_of(what, only)
     if as_json:
         print_json([dict(zip(heads, row)) for row in found])
-    else:
-        print_rows(heads, found)
+        return
+    short, notes = with_notes(heads, found)
+    print_rows(heads, short)
+    for note in notes:
+        out.print(note, soft_wrap=True, markup=False, highlight=False)

@@ -16,6 +16,7 @@ from loadflow.cli.base import (
     Workers,
     app,
     check_workers,
+    err,
     out,
     print_json,
     print_rows,
@@ -37,14 +38,17 @@ def design(
     scene: SceneFile,
     loads: LoadFiles = None,
     candidate: Annotated[
-        str | None, typer.Option("--candidate", help="Which candidate; default: the scene's.")
+        str | None,
+        typer.Option(
+            "--candidate", help="Which candidate; default: the scene's own bearings, or the first."
+        ),
     ] = None,
     key: Annotated[
         list[str] | None,
         typer.Option(
             "--key",
-            help="What varies: geometry.diameter=1.0:1.6, or lubricant.viscosity=0.1,0.2,0.3; "
-            "may be repeated, and takes the place of \\[design.keys].",
+            help="What varies, KEY=LOW:HIGH or KEY=A,B,C, of bearings or friction; may be "
+            "repeated, and takes the place of \\[design.keys].",
         ),
     ] = None,
     margin: Annotated[
@@ -72,6 +76,8 @@ def design(
 
     asked = _with_options(read(scene, loads, name, **reading), candidate, key, margin)
     tell_unused(asked)
+    if asked.design.candidate is None:
+        _tell_candidate(asked)
     means: dict[str, Any] = {
         "out": out_folder,
         "workers": workers or usable_cores(),
@@ -95,6 +101,18 @@ def design(
     out.print(f"page   {found.page}\ntable  {found.table}", soft_wrap=True)
     if designs.best is not None:
         out.print(f"scene  {found.scene}", soft_wrap=True)
+
+
+def _tell_candidate(asked: Scene) -> None:
+    """Print which candidate is searched where none is named, and which there are beside it."""
+    from loadflow.running.candidates import candidates_for
+    from loadflow.running.designing import chosen_candidate
+
+    name, candidate = chosen_candidate(asked)
+    others = [one for one in candidates_for(asked)[0] if one != name]
+    more = f"; --candidate takes another: {', '.join(others)}" if others else ""
+    told = f"searches {name} ({candidate.title or 'of the scene'}){more}"
+    err.print(told, soft_wrap=True, markup=False, highlight=False)
 
 
 def _crown(asked: Scene, means: dict[str, Any], as_json: bool) -> None:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
+from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 from loadflow.quantities import CELSIUS
 
 Row = tuple[str, ...]
@@ -31,8 +34,9 @@ def oils() -> Rows:
     for name in lubricant_names():
         oil = lubricant(name)
         at = (oil.viscosity(celsius + CELSIUS) for celsius in (40.0, 70.0))
-        rows.append((name, *(f"{1e3 * float(viscosity):.4g} mPa s" for viscosity in at)))
-    return ("name", "at 40 °C", "at 70 °C"), rows
+        told = (f"{1e3 * float(viscosity):.4g} mPa s" for viscosity in at)
+        rows.append((name, *told, oil.source))
+    return ("name", "at 40 °C", "at 70 °C", "source"), rows
 
 
 def friction_pairs() -> Rows:
@@ -132,3 +136,51 @@ LISTS: dict[str, Callable[[], Rows]] = {
     "scenes": scenes,
 }
 """Every list by its name on the command line."""
+
+
+def rows_of(what: str, only: str | None) -> Rows:
+    """Heads and rows of a list, of one turbine, stage or name alone if `only` says so.
+
+    Parameters
+    ----------
+    what : str
+        Name of the list.
+    only : str, optional
+        What the first column must have.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        There is no such list, or it has no such rows.
+    """
+    if what not in LISTS:
+        raise InputError(none_such("list", [what], LISTS))
+    heads, rows = LISTS[what]()
+    if only is None:
+        return heads, rows
+    found = [row for row in rows if row[0] == only]
+    if not found:
+        known = dict.fromkeys(row[0] for row in rows)
+        raise InputError(f"list {what}: {none_such(heads[0], [only], known)}")
+    return heads, found
+
+
+def with_notes(heads: Row, rows: list[Row]) -> tuple[list[Row], list[str]]:
+    """Rows whose last column, where sources of several are the same, has numbers; and what of.
+
+    Examples
+    --------
+    >>> with_notes(("name", "source"), [("a", "Sized. Here."), ("b", "Sized."), ("c", "")])
+    ([('a', '1, 2'), ('b', '1'), ('c', '')], ['1  Sized.', '2  Here.'])
+    >>> with_notes(("name", "source"), [("a", "Sized.")])
+    ([('a', 'Sized.')], [])
+    """
+    sentences = [re.split(r"(?<=\.) (?=[A-Z])", row[-1]) if row[-1] else [] for row in rows]
+    every = [sentence for told in sentences for sentence in told]
+    number = {sentence: str(k) for k, sentence in enumerate(dict.fromkeys(every), start=1)}
+    if heads[-1] != "source" or len(number) == len(every):
+        return rows, []
+    short = [
+        (*row[:-1], ", ".join(number[one] for one in told)) for row, told in zip(rows, sentences)
+    ]
+    return short, [f"{k}  {sentence}" for sentence, k in number.items()]

@@ -102,8 +102,8 @@ def journal(
             "--set",
             metavar="KEY=VALUE",
             help="Any key of a scene's \\[journal], as in TOML: --set "
-            '\'geometry.shape={kind="lobes", count=3}\', --set \'shell={kind="local", '
-            "compliance=1e-12}'; once for each.",
+            '\'geometry.shape = {kind = "lobes", count = 3}\', --set \'shell = {kind = "local", '
+            "compliance = 1e-12}'; once for each.",
         ),
     ] = None,
     grid: Annotated[

@@ -25,7 +25,11 @@ _OPTIONS: dict[str, Any] = {
     ],
     "pattern": Annotated[
         str | None,
-        typer.Option("--pattern", help="How names tell the case: 'run_{dlc}_{wind_speed}_{seed}'."),
+        typer.Option(
+            "--pattern",
+            help="How names tell the case, by {dlc}, {wind_speed}, {seed}, such as "
+            "'a{dlc}_s{seed}'.",
+        ),
     ],
     "channels": Annotated[
         str | None,

@@ -16,6 +16,7 @@ from loadflow.cli.base import (
     Scheduler,
     Workers,
     app,
+    caught_warnings,
     check_workers,
     err,
     out,
@@ -142,7 +143,12 @@ def plan(
     from loadflow.planning.plan import make_plan
     from loadflow.planning.seeds_wanted import seeds_wanted, sentences
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
-    from loadflow.scene.unused import unused_keys, unused_warnings
+    from loadflow.scene.unused import (
+        asks_for_friction,
+        friction_note,
+        unused_keys,
+        unused_warnings,
+    )
 
     if not measure:
         refuse("only --pilot works long", "verbose")
@@ -194,7 +200,8 @@ def plan(
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
-    for warning in [*wanted.taken, *unused_warnings(wanted)]:
+    doubts = friction_note(wanted) if asks_for_friction(wanted) else ()
+    for warning in [*wanted.taken, *doubts, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 
@@ -330,7 +337,12 @@ def validate(
     if folder and not names:
         raise InputError("--folder: name the table whose numbers need the files, e.g. turbines")
     tables = names or known
-    rows = [(name, check) for name in tables for check in validation.all_checks(name, folder)]
+    rows: list[tuple[str, Any]] = []
+    with progress(quiet=as_json) as show, caught_warnings():  # the rows say what they hold
+        for k, name in enumerate(tables):
+            show("tables", k, len(tables))
+            rows += [(name, check) for check in validation.all_checks(name, folder)]
+        show("tables", len(tables), len(tables))
     bad = sum(check.outcome == "out" for _, check in rows)
     shown = [row for row in rows if not failed or row[1].outcome == "out"]
     if as_json and summary:

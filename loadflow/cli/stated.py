@@ -1,4 +1,4 @@
-"""Options that other options leave without effect: who states them is told, none is ignored."""
+"""Commands that know which of their options are stated: none without effect is ignored."""
 
 from __future__ import annotations
 
@@ -6,15 +6,27 @@ from contextvars import ContextVar
 from typing import Any
 
 import typer
-from typer.core import TyperCommand
+from typer.core import TyperCommand, TyperGroup
 
 from loadflow.errors import InputError
 
 _CALL: ContextVar[Any] = ContextVar("call")
 
 
+def _without_types(params: list[Any]) -> list[Any]:
+    """Parameters whose help names no type of switches: they take no value."""
+    for one in params:
+        if getattr(one, "is_flag", False) and one.metavar is None:
+            one.metavar = ""
+    return params
+
+
 class Command(TyperCommand):
     """A command that knows which of its options stand on the command line."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Arguments and options, as the help shows them."""
+        return _without_types(super().get_params(ctx))
 
     def invoke(self, ctx: Any) -> Any:
         """Carry the command out."""
@@ -23,6 +35,14 @@ class Command(TyperCommand):
             return super().invoke(ctx)
         finally:
             _CALL.reset(before)
+
+
+class Commands(TyperGroup):
+    """The group of such commands."""
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Options of the program itself, as the help shows them."""
+        return _without_types(super().get_params(ctx))
 
 
 class App(typer.Typer):

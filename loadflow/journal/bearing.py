@@ -35,9 +35,10 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class JournalBearing(JournalGeometry):
-    """Journal bearing: a `JournalGeometry` and what happens in it.
+    """Journal bearing: a shaft that turns in a bore, carried by a film of oil.
 
-    Its verbs take a `Film`, or a `Lubricant` and the fields of `Film` and `Control` as keywords.
+    It is a `JournalGeometry` and what happens in it. Its verbs take a `Film`, or a `Lubricant` and
+    the fields of `Film` and `Control` as keywords.
 
     Attributes
     ----------

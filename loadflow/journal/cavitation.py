@@ -367,7 +367,7 @@ class GasMixture(CavitationLaw):
     cells: ClassVar[Cells] = _gas_mixture
 
     def __post_init__(self) -> None:
-        require(self.mixing_constant > 0, "mixing_constant", self.mixing_constant, "Pa, > 0")
+        require(self.mixing_constant > 0, "mixing_constant", self.mixing_constant, "must be > 0 Pa")
 
     @property
     def floor(self) -> float:

@@ -97,7 +97,7 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
         require(len(self.slant) == 2, "slant", self.slant, "two distances from the apex, m")
         inner, outer = self.slant
         require(0 < inner < outer < math.inf, "slant", self.slant, "m, 0 < inner < outer, finite")
-        require(0 < c < math.inf, "clearance", c, "m, > 0, finite")
+        require(0 < c < math.inf, "clearance", c, "must be > 0 m and finite")
         require(c < 0.1 * inner * math.sin(angle), "clearance", c, "m, below a tenth of the radius")
         if (self.pads is None) != (self.pad_angle is None):
             raise InputError("pads and pad_angle are given together, or none for a whole ring")

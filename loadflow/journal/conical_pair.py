@@ -76,10 +76,10 @@ class ConicalPair(ConicalFilms[PairResult]):
     arrangement: str = "O"
 
     def __post_init__(self) -> None:
-        require(0 < self.distance < math.inf, "distance", self.distance, "m, > 0, finite")
+        require(0 < self.distance < math.inf, "distance", self.distance, "must be > 0 m and finite")
         c = self.clearance
         if c is not None:
-            require(0 < c < math.inf, "clearance", c, "m, > 0, finite")
+            require(0 < c < math.inf, "clearance", c, "must be > 0 m and finite")
         require(self.arrangement in ("O", "X"), "arrangement", self.arrangement, '"O" or "X"')
 
     @property

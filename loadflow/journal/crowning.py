@@ -153,7 +153,7 @@ def best_crown(
     require(aim in AIMS, "aim", aim, " or ".join(AIMS))
     require(0 < tolerance < 1, "tolerance", tolerance, "between 0 and 1")
     limit = bearing.clearance if largest_height is None else largest_height
-    require(limit > 0, "largest_height", limit, "m, > 0")
+    require(limit > 0, "largest_height", limit, "must be > 0 m")
     loads, speeds = np.broadcast_arrays(np.atleast_2d(force), np.reshape(speed, (-1, 1)))
     spectrum = _Spectrum(
         replace(bearing, relief=tuple(r for r in bearing.relief if not isinstance(r, Crown))),

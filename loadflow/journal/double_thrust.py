@@ -143,7 +143,7 @@ class DoubleThrustBearing:
     play: float
 
     def __post_init__(self) -> None:
-        require(0 < self.play < math.inf, "play", self.play, "m, > 0, finite")
+        require(0 < self.play < math.inf, "play", self.play, "must be > 0 m and finite")
 
     def pressure(
         self,

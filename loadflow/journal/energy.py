@@ -81,7 +81,12 @@ def energy_balance(state: Equilibrium, shaft_power: ArrayLike) -> EnergyBalance:
     True
     """
     power = np.asarray(shaft_power, dtype=float)
-    require(bool(np.all(power >= 0) and np.all(np.isfinite(power))), "shaft_power", power, "W, ≥ 0")
+    require(
+        bool(np.all(power >= 0) and np.all(np.isfinite(power))),
+        "shaft_power",
+        power,
+        "must be ≥ 0 W",
+    )
     loss = state.friction_power + state.supply_power
     power, loss = np.broadcast_arrays(power, loss)
     total = power + loss

@@ -51,8 +51,8 @@ class JournalGeometry:
     relief: tuple[Relief, ...] = ()
 
     def __post_init__(self) -> None:
-        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
-        require(self.width > 0, "width", self.width, "m, > 0")
+        require(self.diameter > 0, "diameter", self.diameter, "must be > 0 m")
+        require(self.width > 0, "width", self.width, "must be > 0 m")
         psi = self.relative_clearance
         require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
         object.__setattr__(self, "relief", tuple(self.relief))

@@ -37,7 +37,7 @@ class _Entering:
         check_fields(self)
         for name in self._temperatures():
             value = getattr(self, name)
-            require(value is None or value < HOTTEST, name, value, f"K, < {HOTTEST}")
+            require(value is None or value < HOTTEST, name, value, f"must be < {HOTTEST} K")
         self.liquid  # noqa: B018  a name that is not known is told here
 
     def _temperatures(self) -> tuple[str, ...]:

@@ -49,11 +49,11 @@ class Feet:
     kind: Literal["feet"] = "feet"
 
     def __post_init__(self) -> None:
-        require(0 < self.height < math.inf, "height", self.height, "m, > 0, finite")
-        require(0 < self.width < math.inf, "width", self.width, "m, > 0, finite")
+        require(0 < self.height < math.inf, "height", self.height, "must be > 0 m and finite")
+        require(0 < self.width < math.inf, "width", self.width, "must be > 0 m and finite")
         require(math.isfinite(self.angle), "angle", self.angle, "rad, finite")
         if self.length is not None:
-            require(0 < self.length < math.inf, "length", self.length, "m, > 0, finite")
+            require(0 < self.length < math.inf, "length", self.length, "must be > 0 m and finite")
 
     symmetric = True
 
@@ -84,8 +84,15 @@ class Flange:
     kind: Literal["flange"] = "flange"
 
     def __post_init__(self) -> None:
-        require(0 < self.bolt_circle < math.inf, "bolt_circle", self.bolt_circle, "m, > 0, finite")
-        require(0 < self.thickness < math.inf, "thickness", self.thickness, "m, > 0, finite")
+        require(
+            0 < self.bolt_circle < math.inf,
+            "bolt_circle",
+            self.bolt_circle,
+            "must be > 0 m and finite",
+        )
+        require(
+            0 < self.thickness < math.inf, "thickness", self.thickness, "must be > 0 m and finite"
+        )
         require(math.isfinite(self.axial), "axial", self.axial, "m, finite")
 
     @property
@@ -141,17 +148,17 @@ class HousedShell(ElasticShell):
     kind: Literal["housed"] = "housed"
 
     def __post_init__(self) -> None:
-        require(self.modulus > 0, "modulus", self.modulus, "Pa, > 0")
+        require(self.modulus > 0, "modulus", self.modulus, "must be > 0 Pa")
         good = 0 <= self.poisson_ratio < 0.5
         require(good, "poisson_ratio", self.poisson_ratio, "0 ≤ poisson_ratio < 0.5")
         require(0 < self.accuracy <= 0.1, "accuracy", self.accuracy, "0 < accuracy ≤ 0.1")
-        require(self.shell_thickness >= 0, "shell_thickness", self.shell_thickness, "m, ≥ 0")
+        require(self.shell_thickness >= 0, "shell_thickness", self.shell_thickness, "must be ≥ 0 m")
         if self.shell_modulus is not None:
-            require(self.shell_modulus > 0, "shell_modulus", self.shell_modulus, "Pa, > 0")
+            require(self.shell_modulus > 0, "shell_modulus", self.shell_modulus, "must be > 0 Pa")
             named = "> 0 m where shell_modulus is given"
             require(self.shell_thickness > 0, "shell_thickness", self.shell_thickness, named)
         if self.length is not None:
-            require(0 < self.length < math.inf, "length", self.length, "m, > 0, finite")
+            require(0 < self.length < math.inf, "length", self.length, "must be > 0 m and finite")
         object.__setattr__(self, "elements", tuple(int(n) for n in self.elements))
         around, through, along = self.elements
         fine = 16 <= around <= 120 and 1 <= through <= 8 and 2 <= along <= 24
@@ -159,10 +166,12 @@ class HousedShell(ElasticShell):
         outer = self.outer_diameter
         if isinstance(self.support, Feet):
             height = self.support.height
-            require(height >= 0.5 * outer, "height", height, f"m, ≥ {0.5 * outer:.6g}")
+            require(height >= 0.5 * outer, "height", height, f"must be ≥ {0.5 * outer:.6g} m")
         else:
             circle = self.support.bolt_circle
-            require(circle > outer, "bolt_circle", circle, f"m, > {outer:.6g}, the housing's")
+            require(
+                circle > outer, "bolt_circle", circle, f"must be > {outer:.6g} m, the housing's"
+            )
 
     @property
     def symmetric(self) -> bool:
@@ -182,11 +191,11 @@ class HousedShell(ElasticShell):
             self.outer_diameter > inner, "outer_diameter", self.outer_diameter, f"m, > {inner:.6g}"
         )
         length = self.length_around(width)
-        require(length >= width, "length", length, f"m, ≥ {width:.6g}, that of the bearing")
+        require(length >= width, "length", length, f"must be ≥ {width:.6g} m, that of the bearing")
         if isinstance(self.support, Feet):
             foot = self.support.length
             if foot is not None:
-                require(foot <= length, "length of the feet", foot, f"m, ≤ {length:.6g}")
+                require(foot <= length, "length of the feet", foot, f"must be ≤ {length:.6g} m")
         else:
             half, end = 0.5 * self.support.thickness, 0.5 * length * (1 + 1e-9)
             reach = abs(self.support.axial) + half

@@ -49,8 +49,8 @@ class Lubricant:
     pressure_law: Literal["barus", "roelands"] = "barus"
 
     def __post_init__(self) -> None:
-        require(self.viscosity > 0, "viscosity", self.viscosity, "Pa s, > 0")
-        require(self.density > 0, "density", self.density, "kg/m³, > 0")
+        require(self.viscosity > 0, "viscosity", self.viscosity, "must be > 0 Pa s")
+        require(self.density > 0, "density", self.density, "must be > 0 kg/m³")
         rise, law = self.pressure_coefficient, self.pressure_law
         require(0 <= rise <= 1e-6, "pressure_coefficient", rise, "1/Pa, 0 … 1e-6")
         require(law in PRESSURE_LAWS, "pressure_law", law, '"barus" or "roelands"')

@@ -62,8 +62,10 @@ class Pivot:
     def __post_init__(self) -> None:
         require(0 < self.share < 1, "share", self.share, "share of the pad's length, 0 … 1")
         require(0 < self.across < 1, "across", self.across, "share of the width, 0 … 1")
-        require(self.stiffness > 0, "stiffness", self.stiffness, "N/m, > 0")
-        require(self.tilt_stiffness >= 0, "tilt_stiffness", self.tilt_stiffness, "N m/rad, ≥ 0")
+        require(self.stiffness > 0, "stiffness", self.stiffness, "must be > 0 N/m")
+        require(
+            self.tilt_stiffness >= 0, "tilt_stiffness", self.tilt_stiffness, "must be ≥ 0 N m/rad"
+        )
 
 
 @dataclass(frozen=True)

@@ -54,7 +54,7 @@ class Crown:
 
     def __post_init__(self) -> None:
         require(bool(np.isfinite(self.height)), "height", self.height, "m, finite")
-        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+        require(self.length is None or self.length > 0, "length", self.length, "must be > 0 m")
         require(self.exponent >= 1, "exponent", self.exponent, "≥ 1")
 
     def beyond(self, width: float) -> Iterator[tuple[str, float, str]]:
@@ -114,8 +114,8 @@ class Recess:
 
     def __post_init__(self) -> None:
         require(0 < self.arc <= _TURN, "arc", self.arc, "rad, 0 < arc ≤ 2π")
-        require(self.depth > 0, "depth", self.depth, "m, > 0")
-        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
+        require(self.depth > 0, "depth", self.depth, "must be > 0 m")
+        require(self.length is None or self.length > 0, "length", self.length, "must be > 0 m")
         placed = self.length is not None or self.z == 0
         require(placed, "z", self.z, "0 across the full width; give the length of a shorter one")
 

@@ -26,7 +26,7 @@ _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
 
 def _require_solid(modulus: float, poisson_ratio: float) -> None:
-    require(modulus > 0, "modulus", modulus, "Pa, > 0")
+    require(modulus > 0, "modulus", modulus, "must be > 0 Pa")
     require(0 <= poisson_ratio < 0.5, "poisson_ratio", poisson_ratio, "0 ≤ poisson_ratio < 0.5")
 
 
@@ -56,7 +56,7 @@ class LocalShell(ElasticShell):
 
     def __post_init__(self) -> None:
         good = self.compliance >= 0 and math.isfinite(self.compliance)
-        require(good, "compliance", self.compliance, "m/Pa, ≥ 0, finite")
+        require(good, "compliance", self.compliance, "must be ≥ 0 m/Pa and finite")
 
     @classmethod
     def conformal(
@@ -90,11 +90,11 @@ class LocalShell(ElasticShell):
         >>> f"{steel.compliance:.3g}"  # m/Pa
         '2.06e-12'
         """
-        require(line_load > 0, "line_load", line_load, "N/m, > 0")
-        require(diameter > 0, "diameter", diameter, "m, > 0")
+        require(line_load > 0, "line_load", line_load, "must be > 0 N/m")
+        require(diameter > 0, "diameter", diameter, "must be > 0 m")
         require(relative_clearance > 0, "relative_clearance", relative_clearance, "> 0")
         stiff = float(effective_modulus()) if contact_modulus is None else contact_modulus
-        require(stiff > 0, "contact_modulus", stiff, "Pa, > 0")
+        require(stiff > 0, "contact_modulus", stiff, "must be > 0 Pa")
         curvature = 2.0 * relative_clearance / diameter
         width = math.sqrt(4.0 * line_load / (math.pi * curvature * stiff))
         return cls(9.0 * math.pi**2 / 64.0 * width / stiff)
@@ -133,7 +133,7 @@ class LinedShell(ElasticShell):
     local = True
 
     def __post_init__(self) -> None:
-        require(self.thickness > 0, "thickness", self.thickness, "m, > 0")
+        require(self.thickness > 0, "thickness", self.thickness, "must be > 0 m")
         _require_solid(self.modulus, self.poisson_ratio)
 
     @property
@@ -201,7 +201,7 @@ class ThickShell(ElasticShell):
     kind: Literal["thick"] = "thick"
 
     def __post_init__(self) -> None:
-        require(self.outer_diameter > 0, "outer_diameter", self.outer_diameter, "m, > 0")
+        require(self.outer_diameter > 0, "outer_diameter", self.outer_diameter, "must be > 0 m")
         _require_solid(self.modulus, self.poisson_ratio)
 
 

@@ -52,8 +52,8 @@ class Capillary(_Restrictor):
     laminar = True
 
     def __post_init__(self) -> None:
-        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
-        require(self.length > 0, "length", self.length, "m, > 0")
+        require(self.diameter > 0, "diameter", self.diameter, "must be > 0 m")
+        require(self.length > 0, "length", self.length, "must be > 0 m")
 
     def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
         """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
@@ -82,7 +82,7 @@ class Orifice(_Restrictor):
     discharge_coefficient: Annotated[float, Gt(0)] = 0.62
 
     def __post_init__(self) -> None:
-        require(self.diameter > 0, "diameter", self.diameter, "m, > 0")
+        require(self.diameter > 0, "diameter", self.diameter, "must be > 0 m")
         alpha = self.discharge_coefficient
         require(alpha > 0, "discharge_coefficient", alpha, "> 0")
 
@@ -111,7 +111,7 @@ class ConstantFlow(_Restrictor):
     flow: Annotated[float, Gt(0)]
 
     def __post_init__(self) -> None:
-        require(self.flow > 0, "flow", self.flow, "m³/s, > 0")
+        require(self.flow > 0, "flow", self.flow, "must be > 0 m³/s")
 
     @property
     def given_flow(self) -> float:
@@ -169,8 +169,8 @@ class Groove:
 
     def __post_init__(self) -> None:
         require(0 <= self.arc <= _TURN + 1e-9, "arc", self.arc, "rad, 0 … 2π")
-        require(self.length is None or self.length > 0, "length", self.length, "m, > 0")
-        require(self.axial >= 0, "axial", self.axial, "m, ≥ 0")
+        require(self.length is None or self.length > 0, "length", self.length, "must be > 0 m")
+        require(self.axial >= 0, "axial", self.axial, "must be ≥ 0 m")
         require(self.shape in ("rectangle", "circle"), "shape", self.shape, "rectangle or circle")
         if self.shape == "circle":
             require(self.length is not None, "length", self.length, "the diameter of a circle, m")

@@ -300,7 +300,7 @@ class Taper:
     kind: Literal["taper"] = "taper"
 
     def __post_init__(self) -> None:
-        require(0 <= self.taper < math.inf, "taper", self.taper, "m, ≥ 0 and finite")
+        require(0 <= self.taper < math.inf, "taper", self.taper, "must be ≥ 0 m and finite")
         require(0 < self.wedge <= 1, "wedge", self.wedge, "share of the pad's angle, 0 < … ≤ 1")
 
     def idle(self) -> Iterator[tuple[str, str]]:
@@ -347,7 +347,7 @@ class Step:
     kind: Literal["step"] = "step"
 
     def __post_init__(self) -> None:
-        require(0 <= self.height < math.inf, "height", self.height, "m, ≥ 0 and finite")
+        require(0 <= self.height < math.inf, "height", self.height, "must be ≥ 0 m and finite")
         require(0 < self.share < 1, "share", self.share, "share of the pad's length, 0 … 1")
 
     def idle(self) -> Iterator[tuple[str, str]]:

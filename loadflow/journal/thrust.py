@@ -108,7 +108,7 @@ class _PadThrust(PadBearing):
             finite("velocity", velocity),
         )
         turned = finite("tilt", tilt, 2)
-        require(gap > 0, "gap", gap, "m, > 0")
+        require(gap > 0, "gap", gap, "must be > 0 m")
         assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
         limits = limits_of(control)
         state = self._held(
@@ -156,7 +156,7 @@ class _PadThrust(PadBearing):
         """
         film, control = asked(film, more, control, keywords)
         force, speed = finite("force", force), finite("speed", speed)
-        require(force > 0, "force", force, "N, > 0: it presses the runner on the pads")
+        require(force > 0, "force", force, "must be > 0 N: it presses the runner on the pads")
         load = np.array([0.0, 0.0, -force])
         wanted, turned, free = loading(load, moment, tilt, self._shifts)
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
@@ -177,7 +177,7 @@ class _PadThrust(PadBearing):
     def _films_at(
         self, film: Film, place: float, tilt: Array, speeds: Array, free: Rows, control: Control
     ) -> tuple[Assembly, AssemblyState]:
-        require(place > 0, "start", place, "m, > 0")
+        require(place > 0, "start", place, "must be > 0 m")
         alike, first = free.size == self._shifts.size and not tilt.any(), float(speeds[0])
         assembly = self._assembly(film, place, float(np.abs(speeds).max()), 0.0, alike)
         for member in assembly.members:
@@ -359,7 +359,7 @@ class ThrustBearing(_PadThrust):
 
     def __post_init__(self) -> None:
         inner, outer = self.inner_radius, self.outer_radius
-        require(0 < inner < math.inf, "inner_radius", inner, "m, > 0, finite")
+        require(0 < inner < math.inf, "inner_radius", inner, "must be > 0 m and finite")
         allowed = f"m, above inner_radius = {inner:g}, finite"
         require(inner < outer < math.inf, "outer_radius", outer, allowed)
         even_pads(self.pads, self.pad_angle, self.first_pad)
@@ -420,10 +420,11 @@ class RectangularThrustBearing(_PadThrust):
     pivot: Pivot | None = None
 
     def __post_init__(self) -> None:
-        require(0 < self.mean_radius < math.inf, "mean_radius", self.mean_radius, "m, > 0, finite")
-        require(0 < self.length < math.inf, "length", self.length, "m, > 0, finite")
-        require(self.width > 0, "width", self.width, "m, > 0, or infinite")
-        even_pads(self.pads, self.length / self.mean_radius, self.first_pad)
+        radius = self.mean_radius
+        require(0 < radius < math.inf, "mean_radius", radius, "must be > 0 m and finite")
+        require(0 < self.length < math.inf, "length", self.length, "must be > 0 m and finite")
+        require(self.width > 0, "width", self.width, "must be > 0 m, or infinite")
+        even_pads(self.pads, self.length / radius, self.first_pad)
         Taper(self.taper, self.wedge)
         if self.profile is not None:
             require(self.taper == 0, "taper", self.taper, "0 where a profile is given")

@@ -115,7 +115,9 @@ class CollarCurves:
     def __post_init__(self) -> None:
         check_film(self.film)
         least, most = self.thinnest, 0.5 * self.collar.play
-        require(0 < least < most, "thinnest", least, f"m, > 0 and below {most:g}, half the play")
+        require(
+            0 < least < most, "thinnest", least, f"must be > 0 m and below {most:g}, half the play"
+        )
         for name, row in (("front", self.collar.front), ("back", self.collar.back)):
             if gives_way(row):
                 raise InputError(

@@ -140,8 +140,11 @@ def none_such(what: str, names: Iterable[str], known: Iterable[str]) -> str:
     --------
     >>> none_such("list", ["turbine"], ["turbines", "oils"])
     "no list 'turbine'; did you mean turbines? There are turbines, oils"
+    >>> none_such("stage", ["x"], ["journal", "journal, transient"])
+    "no stage 'x'; there are journal, 'journal, transient'"
     """
     there, asked = [*known], [*names]
     near = "".join(dict.fromkeys(meant(one, there) for one in asked))
     told = ", ".join(map(repr, asked))
-    return f"no {what} {told}{near}{' There' if near else '; there'} are {', '.join(there)}"
+    names = ", ".join(repr(one) if "," in one else one for one in there)
+    return f"no {what} {told}{near}{' There' if near else '; there'} are {names}"

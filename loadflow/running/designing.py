@@ -158,22 +158,17 @@ def design(
 def chosen_candidate(scene: Scene) -> tuple[str, Candidate]:
     """Name and bearings of the candidate that the section ``[design]`` means.
 
+    Where it names none, they are the scene's own bearings, or the first candidate.
+
     Raises
     ------
     loadflow.errors.InputError
-        There is none of that name, or several and none is named.
+        There is none of that name.
     """
     known, _ = candidates_for(scene)
-    name = scene.design.candidate
-    own = [one for one in known if one.startswith("own-")]
-    if name is None and len(known) == 1:
-        name = next(iter(known))
-    elif name is None and len(own) == 1 and not scene.candidates:
-        name = own[0]
-    if name is None or name not in known:
-        which = f"which candidate? There are {', '.join(known)}"
-        said = which if name is None else none_such("candidate", [name], known)
-        raise InputError(f"design.candidate: {said}")
+    name = scene.design.candidate or next(iter(known))  # own bearings stand before sized ones
+    if name not in known:
+        raise InputError(f"design.candidate: {none_such('candidate', [name], known)}")
     return name, known[name]
 
 

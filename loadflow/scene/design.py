@@ -73,7 +73,7 @@ class Design(Section, BaseModel):
     Attributes
     ----------
     candidate : str, optional
-        Which candidate of the scene; the only one, or the scene's own bearings, if left out.
+        Which candidate; the scene's own bearings, or the first candidate, if left out.
     keys : dict
         By key of its bearings, the values that it may take: ``geometry.diameter`` of the bearings
         at all places, ``N.geometry.diameter`` of that at N, ``friction.lubricant`` of the section.

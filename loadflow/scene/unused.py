@@ -13,6 +13,7 @@ from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.places import SHARED
+from loadflow.scene.results import USUAL
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section, idle_keys
 from loadflow.scene.unused_rolling import mounted, of_each_rolling, of_friction
@@ -66,9 +67,9 @@ def unused_keys(scene: Scene) -> dict[str, str]:
 
 
 def unused_warnings(scene: Scene) -> list[str]:
-    """Return a sentence on each of them, on a turbine that is scaled, on friction not counted."""
+    """Return a sentence on each of them, and on a turbine that is scaled."""
     unused = [f"{key}: has no effect, {reason}" for key, reason in unused_keys(scene).items()]
-    return [*scaling_note(scene), *friction_note(scene), *unused]
+    return [*scaling_note(scene), *unused]
 
 
 def _all(scene: Scene) -> Iterator[tuple[str, str]]:
@@ -169,6 +170,12 @@ def friction_note(scene: Scene) -> tuple[str, ...]:
         f"friction: {' and '.join(left_out)} of the rolling bearings not counted, as no closed "
         "form is trustworthy; friction.churning and friction.seal_torque take measured ones",
     )
+
+
+def asks_for_friction(scene: Scene) -> bool:
+    """Whether a scene wants the friction of rolling bearings, not only as one of all results."""
+    stated = {"rolling", "friction"} & scene.model_fields_set or not {*USUAL} <= {*scene.results}
+    return bool(stated) and "rolling.friction" in scene.results
 
 
 def uncounted_friction(scene: Scene) -> list[str]:

@@ -15,6 +15,12 @@ if TYPE_CHECKING:
 
 Given = Mapping[str, Any]
 
+EXAMPLE = (
+    "loadflow journal --diameter 1.2 --width 1 --relative-clearance 1e-3 --viscosity 0.2 "
+    "--force-x 1e6 --speed-rpm 12"
+)
+"""A call with all that one bearing needs."""
+
 
 def journal_film(
     scene: Path | None,
@@ -57,15 +63,15 @@ def journal_film(
         data = read_scene(scene).journal.model_dump(exclude_unset=True)
     more = _tables(sets)
     sizes = _given(geometry)
-    oil = _oil(viscosity, heat, scene is not None or {"lubricant", "heat"} & more.keys())
+    measures = sizes | more.get("geometry", {})
+    has_oil = bool({"lubricant", "heat"} & more.keys())
+    if scene is None:
+        _check_needed([name for name in geometry if name not in measures], viscosity, heat, has_oil)
+    oil = _oil(viscosity, heat)
     for name in ("lubricant", "heat"):
         if oil:
             data.pop(name, None)
     if scene is None:
-        measures = sizes | more.get("geometry", {})
-        missing = [name for name in geometry if name not in measures]
-        if missing:
-            raise InputError(f"give --{missing[0].replace('_', '-')}, or a scene with --scene")
         JournalBearing(**{name: measures[name] for name in geometry})  # in its own words
     data = _merged(data, {"geometry": sizes} if sizes else {}) | oil | _given(keys)
     data |= _law(law) | _supply(grooves, float(data.get("edge_pressure", 0.5e6)))
@@ -101,11 +107,23 @@ def _merged(one: dict[str, Any], other: dict[str, Any]) -> dict[str, Any]:
     return data
 
 
-def _oil(viscosity: float | None, heat: Given, told: Any) -> dict[str, Any]:
+def _check_needed(
+    missing: Sequence[str], viscosity: float | None, heat: Given, has_oil: bool
+) -> None:
+    """Refuse a bearing or an oil that is not given, with all that is missing in one message."""
+    needed = [f"--{name.replace('_', '-')}" for name in missing]
+    if viscosity is None and heat["oil"] is None and not has_oil:
+        needed.append("either --viscosity or --oil")
+    if needed:
+        told = " and ".join(filter(None, [", ".join(needed[:-1]), needed[-1]]))
+        raise InputError(f"give {told}, or a scene with --scene; for example: {EXAMPLE}")
+
+
+def _oil(viscosity: float | None, heat: Given) -> dict[str, Any]:
     oil = heat["oil"]
-    if (viscosity is None) == (oil is None):
-        if viscosity is None and told:
-            return {}
+    if viscosity is None and oil is None:
+        return {}
+    if viscosity is not None and oil is not None:
         raise InputError("give either --viscosity or --oil")
     return {"lubricant": {"viscosity": viscosity}} if oil is None else {"heat": _given(heat)}
 

@@ -294,11 +294,16 @@ def test_margins_that_no_design_has_are_said(cube, found, tmp_path):
     assert math.isfinite(max(a.load_factor for a in done.designs.answers))
 
 
-def test_the_candidate_must_be_named_where_there_are_several(cube):
-    scene = scene_of(cube)
-    open_one = scene.model_copy(update={"design": Design()})
-    with pytest.raises(InputError, match="two-spherical"):
-        chosen_candidate(open_one)
+def test_the_candidate_is_the_scene_s_own_bearings_or_the_first(cube):
+    first = scene_of(cube).model_copy(update={"design": Design()})
+    assert chosen_candidate(first)[0] == "journal-cylindrical"
+    shaft = {"two_point": {}, "moment": {}}
+    for kind in ("journal", "rolling"):
+        own = make_scene({"loads": {"files": [str(cube)]}, "shaft": shaft, kind: {}})
+        assert chosen_candidate(own)[0] == f"own-{kind}"
+    wrong = first.model_copy(update={"design": Design(candidate="two-sferical")})
+    with pytest.raises(InputError, match=r"did you mean two-spherical\?"):
+        chosen_candidate(wrong)
 
 
 def test_the_command_line_searches(cube, found, tmp_path, capsys):
@@ -314,8 +319,10 @@ def test_the_command_line_searches(cube, found, tmp_path, capsys):
     )
     keys = ["--key", "geometry.roller_length=0.11:0.16", "--key", "geometry.rollers=20:24"]
     with pytest.raises(SystemExit, match="0"):
-        main(["design", str(scene), "--out", str(runs), "--workers", "1", "--json", *keys])
-    told = json.loads(capsys.readouterr().out)
+        main(["design", str(scene), "-o", str(runs), "--workers", "1", "--json", *keys])
+    said = capsys.readouterr()
+    assert "searches two-spherical (two spherical" in said.err
+    told = json.loads(said.out)
     keys_told = [axis["key"] for axis in told["axes"]]
     assert keys_told == ["geometry.roller_length", "geometry.rollers"]
     assert told["conclusion"]

@@ -152,7 +152,7 @@ def _thick(shell: ThickShell, mesh: Mesh, radius: float) -> Harmonic:
     from loadflow.journal.film.cylinder import bore_compliance
 
     outer = 0.5 * shell.outer_diameter
-    require(outer > radius, "outer_diameter", shell.outer_diameter, f"m, > {2 * radius:.6g}")
+    require(outer > radius, "outer_diameter", shell.outer_diameter, f"must be > {2 * radius:.6g} m")
     nx = mesh.shape[0]
     orders = np.arange(_HARMONICS * nx + 1)
     numbers = bore_compliance(
