@@ -61,6 +61,23 @@ def test_parts_that_grow_alike_have_the_path_of_those_that_do_not_grow():
     assert (grows["clearance"] == BEARING.clearance).all()
 
 
+def test_a_day_of_changing_wind_ends_each_long_span_where_it_rests():
+    """Bearings of 1 MJ/K take 20 minutes or so: after five hours they have forgotten the last."""
+    spans = [(0.7, 3e5), (1.27, 1.2e6), (0.5, 2e5), (1.1, 8e5)]
+    time = np.linspace(0.0, 20 * 3600.0, 1201)
+    span = np.minimum((time / (5 * 3600.0)).astype(int), 3)
+    speeds, loads = np.array(spans).T
+    options = film(growth=NARROWS, ambient_temperature=283.15, start_temperature=283.15)
+    force = np.stack([loads[span], 0.0 * time], axis=-1)
+    path = BEARING.orbit(time, force, speeds[span], options)
+    for number, (speed, load) in enumerate(spans):
+        end = path.isel(time=int(np.flatnonzero(span == number)[-1]))
+        rest = BEARING.equilibrium((load, 0.0), speed, options)
+        assert float(end["temperature"]) == pytest.approx(float(rest.temperature), abs=0.1)
+        expected = float(rest.minimum_film)
+        assert float(end["minimum_film"]) == pytest.approx(expected, rel=10 * CHANGE)
+
+
 def test_half_the_steps_have_the_same_temperatures():
     """Of first order, 0.057 K at 5 s of a rise of 30 K: pieces end at other samples."""
     coarse, fine = (run_up(film(growth=NARROWS), 0.5, count) for count in (361, 721))
