@@ -16,7 +16,7 @@ from loadflow.journal.cavitation import LAWS, GasMixture
 from loadflow.journal.contact import Contact
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.heat import FilmHeat, Heat, RingGrowth
+from loadflow.journal.heat import FilmHeat, Growth, Heat, RingGrowth
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, Verb, why_not
@@ -80,6 +80,9 @@ PARTS: dict[str, Part] = _LAWS | {
     "thick shell": Part("shell", {"shell": ThickShell(outer_diameter=0.3, modulus=2.1e11)}),
     "heat": Part("heat", {"lubricant": None, "heat": Heat("iso-vg-68")}),
     "heat, stored": Part("heat", {"lubricant": None, "heat": Heat("iso-vg-68", capacity=1e5)}),
+    "heat, stored, with growth": Part(
+        "heat", {"lubricant": None, "heat": Heat("iso-vg-68", capacity=1e5, growth=Growth())}
+    ),
     "heat over the area": Part("heat", {"lubricant": None, "heat": FilmHeat("iso-vg-68")}),
     "growth over the area": Part(
         "heat", {"lubricant": None, "heat": FilmHeat("iso-vg-68", growth=RingGrowth(0.3))}

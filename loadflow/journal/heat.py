@@ -154,7 +154,8 @@ class Heat(_Entering):
         as warm as the sump is, and `inlet_temperature` only says where the search begins. Left out,
         it enters at `inlet_temperature`, whatever cools it.
     growth : Growth, optional
-        Expansion of shaft and shell; left out, the clearance is the same at all temperatures.
+        Expansion of shaft and shell; left out, the clearance is the same at all temperatures. With
+        `capacity` it follows the temperature that is stored.
 
     Examples
     --------
@@ -177,10 +178,9 @@ class Heat(_Entering):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        for name in ("sump_transfer", "growth"):
-            value = getattr(self, name)
-            apart = self.capacity is None or value is None
-            require(apart, name, value, "None with capacity: what is stored has one clearance")
+        apart = self.capacity is None or self.sump_transfer is None
+        allowed = "None with capacity: what is stored is without the sump"
+        require(apart, "sump_transfer", self.sump_transfer, allowed)
 
     def idle(self) -> Iterator[tuple[str, str]]:
         """Fields without effect beside the others, and why."""

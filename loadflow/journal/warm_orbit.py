@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.growing_orbit import growing_orbit
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
@@ -80,8 +81,36 @@ def warm_orbit(
     start = heat.start_temperature
     if start is None or heat.capacity is None:
         start = series_temperature(model, bearing, film, force, speed, line)
+    if heat.capacity is not None and heat.growth is not None:
+        still = replace(film, heat=replace(heat, growth=None))
+
+        def piece(grown: JournalGeometry, some: slice, warm: float, own: Steps) -> xr.Dataset:
+            lies = line.at(np.arange(some.start, some.stop))
+            series = time[some], force[some], speed[some]
+            return _of_clearance(model, grown, still, *series, lies, limits, own, warm)
+
+        return growing_orbit(piece, bearing, heat, time.size, start, steps)
+    grown = grown_by(bearing, heat, start)
+    if steps.start is not None:  # told in clearances as they are made
+        steps = replace(steps, start=steps.start * (bearing.clearance / grown.clearance))
+    return _of_clearance(model, grown, film, time, force, speed, line, limits, steps, start)
+
+
+def _of_clearance(
+    model: Model,
+    bearing: JournalGeometry,
+    film: Film,
+    time: Array,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    steps: Steps,
+    start: float,
+) -> xr.Dataset:
+    """Path in a bearing that stays as it is, from a temperature, K."""
+    heat = cast("Heat", film.heat)
     held = replace(film, lubricant=heat.lubricant(start), heat=None)
-    bearing = grown_by(bearing, heat, start)
 
     def path(times: Array, speeds: Array) -> xr.Dataset:
         return model.orbit(bearing, held, times, force, speeds, line, limits, steps)

@@ -352,7 +352,6 @@ def test_a_series_grows_to_the_clearance_of_its_temperature():
 @pytest.mark.parametrize(
     ("keys", "film", "named"),
     [
-        ({"growth": Growth(), "capacity": 1e5}, {}, "growth"),
         ({"sump_transfer": 1e2, "capacity": 1e5}, {}, "sump_transfer"),
         ({"growth": Growth()}, {"rung": "map"}, "heat.growth"),
     ],

@@ -75,6 +75,18 @@ def test_motion_tilt_heat_and_contact_are_one_scene(rung):
         assert {"temperature", "tilt", "moment", "contact_share"} <= set(path)
 
 
+def test_a_scene_lets_the_clearance_follow_the_heat_that_is_stored():
+    heat = {"oil": "mineral-vg-320", "capacity": 1e4, "start_temperature": 293.15}
+    words = {
+        "motion": "transient",
+        "rung": "reduced",
+        "heat": heat | {"growth": {"shell_share": 0.7}},
+    }
+    path = follow(make_scene({"journal": words}).journal, loads(), reactions())
+    assert float(path.temperature[-1]) > 294.0
+    assert float(path.clearance[-1]) < float(path.clearance[0])
+
+
 @pytest.mark.parametrize("rung", ["reduced", "grid"])
 def test_a_scene_on_tilting_pads_has_a_film_in_motion(rung):
     pads = {"kind": "tilting pads", "count": 5, "arc": 1.05, "preload": 0.3}

@@ -199,6 +199,10 @@ def _pairs(
             stored and bool(steps.periodic),
             "without capacity on a closed path",
         )
+        follows = stored and getattr(film.heat, "growth", None) is not None
+        free = follows and (pads or line.moment is not None)
+        one = "without growth where pads or a shaft tilt freely, or without capacity"
+        yield "heat", film.heat, free, one
     growth = getattr(film.heat, "growth", None)
     one = "None on a map, which has one clearance"
     yield "heat.growth", growth, growth is not None and film.rung == "map", one
