@@ -35,6 +35,7 @@ from loadflow.studies.compare_result import (
     without,
 )
 from loadflow.studies.compare_risks import rolling_risks, wear
+from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
 from loadflow.studies.run_lifetime import energy_per_year, known_shares
@@ -185,13 +186,11 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
     share = _shares(run, table)
-    flows = {
-        "oil_flow": ("mean_side_flow", 6e4, "l/min", "no oil leaves the film"),
-        "pump": ("mean_supply_power", 1e-3, "kW", "oil is fed without pressure"),
-    }
-    for key, (name, scale, unit, none) in flows.items():
-        whole = table[name].fillna(0.0).sum("bearing").values * scale
-        yield key, _mean(run, whole, share, groups, unit, "" if whole.any() else none)
+    flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
+    none = "" if flow.any() else "no oil leaves the film"
+    yield "oil_flow", _mean(run, flow, share, groups, "l/min", none)
+    power, note = supply_power(table)
+    yield "pump", _mean(run, power / 1e3, share, groups, "kW", note)
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
     yield from _lost(run, table, table["lost_power"], "")

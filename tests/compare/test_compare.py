@@ -39,6 +39,7 @@ from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import wear
+from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
@@ -190,6 +191,17 @@ def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_rati
 def test_an_eccentricity_ratio_above_1_says_why_there_is_a_film_and_others_nothing():
     assert "preloaded lobes and pads leave more" in with_wide_bore(Number(1.11)).note
     assert with_wide_bore(Number(0.9)).note == ""
+
+
+def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(found):
+    film = by_name(found)["journal-cylindrical"].numbers
+    flow, pump = film["oil_flow"], film["pump"]
+    assert pump.value == pytest.approx(1e5 * flow.value / 6e4 / 1e3)  # 0.1 MPa, l/min to kW
+    assert pump.note == "what leaves the films, at 0.1 MPa, assumed; not in the energy"
+    shares = (pump.tolerance_low / pump.value, flow.tolerance_low / flow.value)
+    assert shares[0] == pytest.approx(shares[1])
+    states = {"mean_supply_power": ("bearing", [2.0, 3.0]), "mean_side_flow": ("bearing", [1, 1])}
+    assert supply_power(xr.Dataset(states)) == (5.0, "")
 
 
 def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
