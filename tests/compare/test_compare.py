@@ -38,7 +38,7 @@ from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
-from loadflow.studies.compare_risks import wear
+from loadflow.studies.compare_risks import events, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -246,6 +246,14 @@ def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_star
     assert (untouched.value, untouched.holds) == (0.0, True)
     lawless = make_scene({"name": "none", "journal": {"bearings": ["N"]}})
     assert "needs a law of wear" in wear(lawless, {}, table, groups).note
+
+
+def test_rows_of_wear_and_standing_say_which_starts_they_rest_on():
+    table = xr.Dataset(coords={"case": [0, 1, 2], "dlc": ("case", ["1.1", "4.1", "3.1"])})
+    starts = {"loads": {"dlc": ["1.1", "3.1", "4.1"]}, "lifetime": {"per_year": {"4.1": 500}}}
+    scene = make_scene({"name": "s", **starts})
+    assert events(scene, table) == "20,000 of DLC 3.1, 10,000 of DLC 4.1 in the life"
+    assert events(scene, table.isel(case=[0])) == "no start, stop or fault in this run"
 
 
 def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
