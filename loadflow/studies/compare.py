@@ -19,7 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
 from loadflow.studies.compare_factor import Margin
-from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_friction import COLLAR, error_together, rolling_losses
 from loadflow.studies.compare_margins import (
     damage_per_hour,
     margin_of,
@@ -316,7 +316,7 @@ def _lost(
     share, groups = _shares(run, table), Groups.of(table)
     if "thrust" in run.tables and table is not run.tables["thrust"]:
         beside = run.tables["thrust"]["lost_power"].drop_vars(("dlc",), errors="ignore")
-        names = [f"{name}, thrust" for name in beside["bearing"].values.tolist()]
+        names = [f"{name}{COLLAR}" for name in beside["bearing"].values.tolist()]
         power = xr.concat(
             [power, beside.assign_coords(bearing=names)],
             "bearing",
@@ -328,7 +328,8 @@ def _lost(
     result = next(
         (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
     )
-    error = _error(run, result, "friction power")
+    errors = (_error(run, one, "friction power") for one in (result, "thrust.film"))
+    error = error_together(own, share, *errors)
     yield "friction", replace(loss, error=error)
     if "mean_supply_power" in table:
         supply = table["mean_supply_power"].fillna(0.0)

@@ -33,7 +33,7 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
-from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
@@ -118,6 +118,16 @@ def test_our_friction_torque_stands_beside_that_of_catalogues(cube, tmp_path, fo
     assert "after SKF, with its constants" in (both.path / "compare.html").read_text("utf-8")
     film = by_name(found)["journal-cylindrical"].numbers["palmgren_torque"]
     assert film.note == "n/a: no rolling elements"
+
+
+def test_the_error_of_journals_with_a_collar_is_that_of_each_by_what_it_loses():
+    watts = [[1e3, 3e3], [2e3, 4e3]]
+    power = xr.DataArray(watts, {"bearing": ["N2", "N2, thrust"]}, ("case", "bearing"))
+    share = np.array([0.5, 0.5])
+    mean = (0.02 * 1.5 + 0.1 * 3.5) / 5.0
+    assert error_together(power, share, 0.02, 0.1) == pytest.approx(mean)
+    assert math.isnan(error_together(power, share, 0.02, math.nan))
+    assert error_together(power[:, :1], share, 0.02, math.nan) == 0.02
 
 
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
