@@ -19,7 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
 from loadflow.studies.compare_factor import Margin
-from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_friction import COLLAR, error_together, rolling_losses
 from loadflow.studies.compare_margins import (
     damage_per_hour,
     margin_of,
@@ -35,6 +35,7 @@ from loadflow.studies.compare_result import (
     without,
 )
 from loadflow.studies.compare_risks import rolling_risks, wear
+from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
 from loadflow.studies.run_lifetime import energy_per_year, known_shares
@@ -185,13 +186,11 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
     share = _shares(run, table)
-    flows = {
-        "oil_flow": ("mean_side_flow", 6e4, "l/min", "no oil leaves the film"),
-        "pump": ("mean_supply_power", 1e-3, "kW", "oil is fed without pressure"),
-    }
-    for key, (name, scale, unit, none) in flows.items():
-        whole = table[name].fillna(0.0).sum("bearing").values * scale
-        yield key, _mean(run, whole, share, groups, unit, "" if whole.any() else none)
+    flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
+    none = "" if flow.any() else "no oil leaves the film"
+    yield "oil_flow", _mean(run, flow, share, groups, "l/min", none)
+    power, note = supply_power(table)
+    yield "pump", _mean(run, power / 1e3, share, groups, "kW", note)
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
     yield from _lost(run, table, table["lost_power"], "")
@@ -317,7 +316,7 @@ def _lost(
     share, groups = _shares(run, table), Groups.of(table)
     if "thrust" in run.tables and table is not run.tables["thrust"]:
         beside = run.tables["thrust"]["lost_power"].drop_vars(("dlc",), errors="ignore")
-        names = [f"{name}, thrust" for name in beside["bearing"].values.tolist()]
+        names = [f"{name}{COLLAR}" for name in beside["bearing"].values.tolist()]
         power = xr.concat(
             [power, beside.assign_coords(bearing=names)],
             "bearing",
@@ -329,7 +328,8 @@ def _lost(
     result = next(
         (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
     )
-    error = _error(run, result, "friction power")
+    errors = (_error(run, one, "friction power") for one in (result, "thrust.film"))
+    error = error_together(own, share, *errors)
     yield "friction", replace(loss, error=error)
     if "mean_supply_power" in table:
         supply = table["mean_supply_power"].fillna(0.0)

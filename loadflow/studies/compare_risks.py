@@ -18,9 +18,11 @@ from loadflow.stages.film_summary import STANDING
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
+from loadflow.stages.wear import count_of
 from loadflow.studies.compare_factor import reduced_samples
 from loadflow.studies.compare_result import Number
 from loadflow.studies.seed_intervals import Groups, interval
+from loadflow.wind.cases import LOAD_CASES
 
 WORN_SHARE = 0.1
 """Of the radial clearance that may wear off; assumed."""
@@ -58,7 +60,7 @@ def wear(
     data, limit = bores[place], _worn_limit(scene, place)
     depth = _depth(data)
     law = scene.wear.law
-    note = f"{law}; limit: a tenth of the radial clearance, assumed"
+    note = f"{law}; {events(scene, table)}; limit: a tenth of the radial clearance, assumed"
     if depth == 0:
         note += "; no start, stop or fault of this run touches while it turns"
         return Number(0.0, "µm", limit=1e6 * limit, holds=True, place=place, note=note)
@@ -70,6 +72,22 @@ def wear(
         1e6 * depth, "µm", low, high, limit=1e6 * limit, holds=bool(depth <= limit),
         case=str(data["cycle"].values[int(np.argmax(energy.values))]), place=place, note=note,
     )  # fmt: skip
+
+
+def events(scene: Scene, table: xr.Dataset) -> str:
+    """How often the starts, stops and faults of a run happen in the life, in words.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was run.
+    table : xarray.Dataset
+        Any result over ``case``, with `dlc`.
+    """
+    there = sorted({*table["dlc"].values.tolist()} & {*LOAD_CASES})
+    rubs = [dlc for dlc in there if LOAD_CASES[dlc].stands_or_starts]
+    told = (f"{count_of(scene, dlc):,.0f} of DLC {dlc}" for dlc in rubs)
+    return f"{', '.join(told)} in the life" if rubs else "no start, stop or fault in this run"
 
 
 def _depth(bore: xr.Dataset) -> float:
@@ -161,6 +179,8 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     told = f"largest contact pressure meanwhile {1e-6 * pressure:.0f} MPa" if case else ""
     if not stands.any():
         told = "no load case of this run stands: marks of standing are not judged"
+    else:
+        told = "; ".join(filter(None, (told, events(scene, table))))
     low, high = interval(
         Groups.of(table),
         lambda some: 100 * float((stands[some] * share[some]).sum() / share[some].sum()),

@@ -222,7 +222,7 @@ def _of_films(journal: Journal, films: Mapping[str, Films], seconds: float) -> d
         "friction": sums["power"],
         "energy": sums["power"] + sums["pump"],
         "oil_flow": sums["oil_flow"],
-        "pump": sums["pump"],
+        "pump": sums["pump"] or sums["oil_flow"],  # unstated, it goes with what leaves the films
         "mixed_time": max(mixed) * seconds / 3600,
         "tilt": 1.0 / min(thinnest),
     }

@@ -33,12 +33,13 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
-from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used, with_wide_bore
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
-from loadflow.studies.compare_risks import wear
+from loadflow.studies.compare_risks import events, wear
+from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
@@ -119,6 +120,16 @@ def test_our_friction_torque_stands_beside_that_of_catalogues(cube, tmp_path, fo
     assert film.note == "n/a: no rolling elements"
 
 
+def test_the_error_of_journals_with_a_collar_is_that_of_each_by_what_it_loses():
+    watts = [[1e3, 3e3], [2e3, 4e3]]
+    power = xr.DataArray(watts, {"bearing": ["N2", "N2, thrust"]}, ("case", "bearing"))
+    share = np.array([0.5, 0.5])
+    mean = (0.02 * 1.5 + 0.1 * 3.5) / 5.0
+    assert error_together(power, share, 0.02, 0.1) == pytest.approx(mean)
+    assert math.isnan(error_together(power, share, 0.02, math.nan))
+    assert error_together(power[:, :1], share, 0.02, math.nan) == 0.02
+
+
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
     for one in found.comparison.candidates:
         factor = one.numbers["load_factor"]
@@ -192,6 +203,17 @@ def test_an_eccentricity_ratio_above_1_says_why_there_is_a_film_and_others_nothi
     assert with_wide_bore(Number(0.9)).note == ""
 
 
+def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(found):
+    film = by_name(found)["journal-cylindrical"].numbers
+    flow, pump = film["oil_flow"], film["pump"]
+    assert pump.value == pytest.approx(1e5 * flow.value / 6e4 / 1e3)  # 0.1 MPa, l/min to kW
+    assert pump.note == "what leaves the films, at 0.1 MPa, assumed; not in the energy"
+    shares = (pump.tolerance_low / pump.value, flow.tolerance_low / flow.value)
+    assert shares[0] == pytest.approx(shares[1])
+    states = {"mean_supply_power": ("bearing", [2.0, 3.0]), "mean_side_flow": ("bearing", [1, 1])}
+    assert supply_power(xr.Dataset(states)) == (5.0, "")
+
+
 def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
     page = found.page.read_text(encoding="utf-8")
     told = {one.references: [] for one in found.comparison.candidates}
@@ -234,6 +256,14 @@ def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_star
     assert (untouched.value, untouched.holds) == (0.0, True)
     lawless = make_scene({"name": "none", "journal": {"bearings": ["N"]}})
     assert "needs a law of wear" in wear(lawless, {}, table, groups).note
+
+
+def test_rows_of_wear_and_standing_say_which_starts_they_rest_on():
+    table = xr.Dataset(coords={"case": [0, 1, 2], "dlc": ("case", ["1.1", "4.1", "3.1"])})
+    starts = {"loads": {"dlc": ["1.1", "3.1", "4.1"]}, "lifetime": {"per_year": {"4.1": 500}}}
+    scene = make_scene({"name": "s", **starts})
+    assert events(scene, table) == "20,000 of DLC 3.1, 10,000 of DLC 4.1 in the life"
+    assert events(scene, table.isel(case=[0])) == "no start, stop or fault in this run"
 
 
 def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
