@@ -24,7 +24,7 @@ def test_a_film_is_solved_on_one_thread_and_the_others_come_back(monkeypatch):
     on_one_thread(threads)()  # SciPy's library is there
     with threadpool_limits(2, user_api="blas"):
         assert threads() == {2}
-        bearing.equilibrium((1e4, 0.0), 10.0, Lubricant(0.03), grid=(24, 8), rung="grid")
+        bearing.equilibrium((1e4, 0.0), 10.0, Lubricant(0.03), grid=(24, 8), tilt=(1e-5, 0.0))
         assert threads() == {2}
     assert seen
     assert all(one == {1} for one in seen)

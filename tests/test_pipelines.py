@@ -74,7 +74,7 @@ def events(name, tmp_path, **loads):
     scene = read_scene(next(path for path in PIPELINES if path.stem == name))
     scene = scene.model_copy(update={"results": ["journal.film"], "accuracy": "given"})
     scene = changed(scene, "loads", rung="tables", step=0.1, seeds=1, **loads)
-    scene = changed(scene, "journal", rung="reduced", bearings=["N"])
+    scene = changed(scene, "journal", rung="reduced", motion="transient", bearings=["N"])
     run = lf.run(scene, out=tmp_path, report=True)
     assert run.failures == {}
     assert run.flagged == {}  # every sample has an answer, those at a stand too
@@ -86,7 +86,6 @@ def events(name, tmp_path, **loads):
 def test_starts_and_stops_rest_on_asperities_in_their_pipelines(name):
     journal = read_scene(next(path for path in PIPELINES if path.stem == name)).journal
     assert journal.contact is not None
-    assert journal.in_motion
     size = journal.geometry
     given = LocalShell.conformal(2e6 / size.width, size.diameter, size.relative_clearance)
     assert journal.shell.compliance == pytest.approx(given.compliance, rel=5e-3)

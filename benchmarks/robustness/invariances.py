@@ -113,7 +113,7 @@ def asked(family: str, number: int) -> Asked:
             setattr(kind, verb, method)
     bearing, verb, values = seen[0]
     film = values.pop("film")
-    if isinstance(film, Lubricant):
+    if film is None or isinstance(film, Lubricant):
         names = [one.name for one in fields(Film) if one.name in values]
         film = Film(film, **{name: values.pop(name) for name in names})
     known = ("time", "force", "speed", "moment", "tilt", "bend")

@@ -127,10 +127,12 @@ def _frame(cells: Cells, start: float, width: float) -> str:
 
 def _fine(cells: Cells, low: float, span: float) -> np.ndarray:
     """Shares of the scale of colours (row, column), the first row on top; NaN: none."""
-    places = [
-        np.searchsorted(edges, edges[0] + np.ptp(edges) * (np.arange(n) + 0.5) / n, "right") - 1
-        for edges, n in ((e, _FINE * (e.size - 1)) for e in (cells.x, cells.y))
-    ]
+    places = []
+    for edges in (cells.x, cells.y):
+        count = edges.size - 1
+        middles = edges[0] + np.ptp(edges) * (np.arange(_FINE * count) + 0.5) / (_FINE * count)
+        # of edges that lie together, as of a series that does not vary, the last cell is the one
+        places.append(np.minimum(np.searchsorted(edges, middles, "right"), count) - 1)
     return np.asarray(((cells.values - low) / span)[np.ix_(*places)].T[::-1])
 
 

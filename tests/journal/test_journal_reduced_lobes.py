@@ -152,8 +152,11 @@ def test_effects_around_lobes_and_arcs_are_those_of_the_grid(shape, effect):
     assert differences(ours, theirs, shares) == {}
 
 
-@pytest.mark.parametrize("shape", [Lobes(2, preload=0.4, groove=0.3), Arc(0.0, 2.8)])
-def test_asperities_of_lobes_and_arcs_carry_what_they_do_on_the_grid(shape):
+@pytest.mark.parametrize(
+    ("shape", "around"),  # a film that 120 cells do not resolve is solved on more of them
+    [(Lobes(2, preload=0.4, groove=0.3), 120), (Arc(0.0, 2.8), 480)],
+)
+def test_asperities_of_lobes_and_arcs_carry_what_they_do_on_the_grid(shape, around):
     small = JournalBearing(0.4, 0.3, 1e-3, shape=shape)
     rough = Contact(
         AsperityContact(roughness=2e-6, contact_modulus=115e9, factor=1e-3), friction=0.1
@@ -163,7 +166,7 @@ def test_asperities_of_lobes_and_arcs_carry_what_they_do_on_the_grid(shape):
             (2.5e6, 5e5), 1.0, Lubricant(0.05), cavitation=GasMixture(1e4), edge_pressure=1e5,
             grid=grid, rung=rung, inlet=None, contact=rough,
         )
-        for rung, grid in (("reduced", (120, 16)), ("grid", (120, 40)))
+        for rung, grid in (("reduced", (120, 16)), ("grid", (around, 40)))
     )  # fmt: skip
     assert theirs.contact_share > 0.01  # asperities count
     assert ours.contact_share == pytest.approx(theirs.contact_share, rel=0.03)

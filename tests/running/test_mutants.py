@@ -47,7 +47,7 @@ def test_of_10_000_mutants_none_escapes(kind):
         ("loads", {"first_seed": 2**80}, "loads.first_seed"),
         ("loads", {"wind_speeds": [1e308]}, "loads.wind_speeds"),
         ("loads", {"step": 1e-300}, "loads.step"),
-        ("turbine", 1e300, "turbine = 1e\\+300: must be a valid dictionary"),
+        ("turbine", 1e300, "turbine = 1e\\+300: must be a table"),
         ("journal", {"heat": "warm"}, "journal.heat = 'warm': kind must be one of balance, film"),
         ("journal", {"heat": [1.0]}, "journal.heat = \\[1.0\\]: kind must be one of balance, film"),
         ("journal", {"cavitation": 1e9}, "journal.cavitation: 1000000000.0 is not allowed: a kind"),
