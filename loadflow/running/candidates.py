@@ -84,6 +84,10 @@ def _bearings(one: Candidate) -> tuple[Any, ...]:
     return one.journal, one.rolling, one.thrust, one.tolerances
 
 
+ROOMS = ("journal", "rolling", "thrust")
+"""Sections of a scene that say which bearings there are."""
+
+
 def _of_places(scene: Scene, places: list[str]) -> Tolerances:
     return {place: found for place, found in scene.tolerances.items() if place in places}
 
@@ -125,7 +129,12 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
         fewer = {"size": min(1.0, SHAPED_CLASSES**2 / steps), "classes": SHAPED_CLASSES}
     if not base.reduction.changed:
         update["reduction"] = base.reduction.model_copy(update=fewer)
-    return base.model_copy(update=update | {"results": results})
+    # a bearing of the scene in a room that the candidate has none of is none of the candidate's
+    others = [room for room in ROOMS if getattr(candidate, room) is None]
+    update |= {room: type(getattr(base, room))() for room in others}
+    found = base.model_copy(update=update | {"results": results})
+    found.model_fields_set.difference_update(others)
+    return found
 
 
 def _wears(base: Scene, journal: Journal) -> bool:

@@ -388,6 +388,18 @@ def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline
     assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
 
 
+def test_bearings_of_the_scene_are_none_of_a_candidate_that_has_others():
+    """A collar of the scene carries no thrust of journals without one."""
+    others = {"candidates": {"journal-cylindrical": {}, "journal-thrust": {}}}
+    scene = make_scene({"name": "quick", "bearings": ["journal-thrust"], **others})
+    assert scene.thrust.bearings
+    bare, pads = (scene.candidates[name] for name in others["candidates"])
+    found = candidate_scene(scene, "bare", bare, 1000)
+    assert not found.thrust.bearings
+    assert not {"thrust", "rolling"} & found.model_fields_set
+    assert candidate_scene(scene, "pads", pads, 1000).thrust.bearings
+
+
 def test_a_candidate_with_a_reservation_says_so_in_table_and_depth(found):
     bare = by_name(found)["journal-cylindrical"]
     assert bare.holds
