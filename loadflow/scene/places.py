@@ -27,17 +27,6 @@ WRITTEN = {registered: written for written, registered in _REGISTERED.items()}
 """Kinds of rolling bearings that scenes write in another word than the package has."""
 
 
-def kind_words(kind: str) -> str:
-    """A rolling bearing of some kind, as messages name it.
-
-    Examples
-    --------
-    >>> kind_words("slewing"), kind_words("spherical")
-    ('a four-point bearing', 'a spherical bearing')
-    """
-    return f"a {WRITTEN.get(kind, kind)} bearing"
-
-
 GEOMETRIES = {FOUR_POINT: KINDS[_REGISTERED[FOUR_POINT]]} | KINDS
 """Kinds of rolling bearings by every word that a scene may have for them."""
 

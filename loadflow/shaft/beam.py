@@ -1,4 +1,4 @@
-"""The shaft as an elastic beam on elastic supports; data only."""
+"""The shaft as an elastic beam on elastic supports, and what carries those."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.former_names import renamed
-from loadflow.numerics.fields import check_one_of
+from loadflow.numerics.fields import check_fields, check_one_of
 from loadflow.shaft.frame import FrameMatrix
 
 _ROUNDING = 1e-9
@@ -102,10 +102,7 @@ class BearingSupport:
     housing: FrameMatrix | None = None
 
     def __post_init__(self) -> None:
-        for name, value in vars(self).items():
-            number = name not in ("takes_moment", "stiffness", "housing")
-            if number and value is not None and not 0 < value < math.inf:
-                raise InputError(f"{name} = {value}: must be greater than 0 and finite")
+        check_fields(self)
         check_one_of("stiffness", self.stiffness, ("given", "journal", "rolling"))
         if self.stiffness != "given" and (self.radial or self.tilt):
             raise InputError(

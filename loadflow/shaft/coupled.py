@@ -193,9 +193,15 @@ class _Solved:
         both = self.converged & truth.converged
         if not both.any():
             return np.inf
-        ours, theirs = (part.values[both][:, :4, :, 1:] for part in (self, truth))
+        ours, theirs = (_judged(part.values[both]) for part in (self, truth))
         off, size = (abs(part).max(axis=(0, 2, 3)) for part in (ours - theirs, theirs))
         return float(np.divide(off, size, out=np.zeros_like(off), where=size > 0).max())
+
+
+def _judged(values: Floats) -> Floats:
+    """What is to be right across the shaft: loads, motion, and the tilt in the bore."""
+    tilt, bore = (values[:, [_KEPT.index(name)]] for name in ("tilt", "bore_tilt"))
+    return np.concatenate([values[:, :4], tilt - bore], axis=1)[..., 1:]
 
 
 @dataclass(frozen=True)

@@ -31,9 +31,9 @@ answer has NaN."""
 
 _TURN = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1], [0, 0, -1, 0]], dtype=float)
 """From (y, z, θy, θz) to (v, w, v′, w′)."""
-_OF_BORE = (1, 2, 5, 4)
-_SIGN = np.array([1.0, 1.0, 1.0, -1.0])
-"""Of (x, y, z, θx, θy, θz), what v, w, v′ and w′ are, and their signs."""
+_OF_BORE = np.zeros((4, 6))
+_OF_BORE[:, [1, 2, 4, 5]] = _TURN
+"""From (x, y, z, θx, θy, θz) to (v, w, v′, w′)."""
 _ITERATIONS = 50
 _STUCK = 2.0**-7  # share of a step that is none
 _FREE = 1e6  # over the flexibility of the shaft: a support that hardly takes a moment
@@ -96,7 +96,7 @@ def elastic_reactions(
     models: Mapping[int, BearingModel],
     iteration: Iteration,
 ) -> ShaftMotion:
-    """Solve the shaft under loads across it.
+    """Solve the shaft under all loads; thrust moves what carries the bearings.
 
     Parameters
     ----------
@@ -146,7 +146,7 @@ def elastic_reactions(
     # the force along the shaft moves housings and frame as well, and no reaction moves it
     soft, thrust = beam.compliance_of_bores(bearings), forces[:, 0].sum(axis=0)
     bore = np.zeros((support.size, 6 * bearings))
-    bore[np.arange(support.size), 6 * support + np.array(_OF_BORE)[component]] = _SIGN[component]
+    bore.reshape(-1, bearings, 6)[np.arange(support.size), support] = _OF_BORE[component]
     pushed = np.outer(soft[:, 6 * locating], thrust)
     redundant = _Redundant(
         support=support,

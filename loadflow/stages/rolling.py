@@ -10,7 +10,6 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.rolling import (
-    BoltCircle,
     Lubrication,
     bolt_loads,
     modified_spectrum_life,
@@ -18,6 +17,7 @@ from loadflow.rolling import (
 )
 from loadflow.rolling.contacts import Raceway
 from loadflow.rolling.rating import life, safety
+from loadflow.rolling.rings.bolts import bolts_of
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -226,19 +226,13 @@ def _torque(answer: Any, idle: float) -> float:
 
 
 def _clamping(part: FurtherBearing, answer: Any) -> float:
-    """Least clamping of bolted rings under the hardest samples; NaN without such rings."""
-    rings: tuple[tuple[Raceway, Any], ...] = (
+    """Least clamping of bolted rings over all samples; NaN without such rings."""
+    sides: tuple[tuple[Raceway, object], ...] = (
         ("inner", part.inner_ring),
         ("outer", part.outer_ring),
     )
-    bolted = [
-        side
-        for side, ring in rings
-        if part.rings == "flexible"
-        and any(isinstance(held, BoltCircle) for held in getattr(ring, "supports", ()))
-    ]
-    hardest = np.argsort(answer.static_safety)[:_HARDEST]
-    found = [one for side in bolted for one in bolt_loads(answer, side, hardest)]
+    bolted = [side for side, ring in sides if part.rings == "flexible" and bolts_of(ring)]
+    found = [one for side in bolted for one in bolt_loads(answer, side)]
     return min((float(one.clamping.min()) for one in found), default=np.nan)
 
 

@@ -184,7 +184,7 @@ _TOLD = {
     "iterations": "iterations of shaft and bearings",
     "residual": "largest change of a reaction in the last iteration, relative",
     "solved": "samples solved with the bearings' own models",
-    "interpolation_error": "error between these, of loads, displacement and tilt",
+    "interpolation_error": "error between these, of loads, motion and tilt in the bore",
 }
 
 

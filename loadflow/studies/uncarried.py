@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from loadflow.scene.places import kind_words
 from loadflow.scene.scene import Scene
 from loadflow.verdict import Verdict
 
@@ -129,7 +128,7 @@ def _at(
             note = f"{size} is carried by {place}, a {bearing.words}; {unjudged}"
             note += " (rolling.life)"
             return Located(place, force, case, time, f"rolling {place}", True, note)
-        kind = kind_words(bearing.kind)
+        kind = f"a {bearing.words}"
     elif place in rooms["journal"]:
         kind = "a journal bearing"
     else:

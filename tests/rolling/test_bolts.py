@@ -77,10 +77,6 @@ def test_bolts_carry_force_and_moment_of_the_ring(face):
     # the section rolls, too: the springs against that share the moment, in its sense or against it
     moment = (pull * 0.31 * np.sin(bolts.azimuth)).sum()
     assert moment == pytest.approx(1.5e4, rel=0.1)
-    grown = found.largest_force - bolts.preload
-    np.testing.assert_allclose(grown, bolts.load_factor * found.pull, rtol=1e-8, atol=1e-6)
-    hardest = found.clamping.min()
-    assert (hardest < 1) == (found.pull.max() > 0)
 
 
 def test_bolts_are_their_springs():
@@ -103,13 +99,6 @@ def test_more_bolts_hold_a_ring_firmer():
         for some in ({"count": 20}, {"count": 40}, {"count": 40, "grip": 0.06})
     ]
     assert lifts[0] > lifts[1] > lifts[2]
-
-
-def test_some_cases_have_the_loads_that_all_have():
-    rings = FlexibleRings(outer=ring_on(BoltCircle(**SIZE)))
-    loaded = BEARING.equilibrium([(0.0, 0.0, f) for f in (2e4, 8e4, -4e4)], rings=rings)
-    every, two = bolt_loads(loaded, "outer")[0], bolt_loads(loaded, "outer", [2, 0])[0]
-    np.testing.assert_allclose(two.pull, every.pull[[2, 0]], rtol=1e-12)
 
 
 @pytest.mark.parametrize(

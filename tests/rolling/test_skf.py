@@ -133,6 +133,14 @@ def test_a_row_of_balls_has_the_load_on_the_bearing_and_its_static_capacity():
     np.testing.assert_allclose(found["constant coefficient"], 0.0015 * np.hypot(5e3, 1e3) * 0.0225)
 
 
+def test_what_rounding_leaves_of_thrust_is_none():
+    """SKF has another power of the diameter without thrust, and a jump of a tenth there."""
+    loaded = GROOVE.equilibrium([(3e4, 0.0, 0.0)] * 2, [(0.0, 0.0), (10.0, 0.0)])
+    entry = CatalogueEntry(bore=0.045, outside_diameter=0.085, series="62")
+    found = torques_beside(loaded, 100.0, OIL, entry)["skf"]
+    assert found[1] == pytest.approx(found[0], rel=1e-6)
+
+
 def test_rows_of_a_four_point_ring_share_thrust_and_each_bears_its_part_of_a_moment():
     """Without tilt both rows have half of the thrust; a moment loads them apart."""
     loaded = RING.equilibrium([(0.0, 0.0, 4e5), (0.0, 0.0, 4e5)], [(0.0, 0.0), (4e4, 0.0)])
@@ -235,6 +243,9 @@ def test_a_width_is_of_rollers_and_rollers_have_one():
     CatalogueEntry(**size, series="240", width=0.4).check(BARRELS)
     with pytest.raises(InputError, match="width: left out where balls roll"):
         CatalogueEntry(**RING_SIZE, series="all", oil_level=0.1, width=0.1).check(RING)
+    barrels = skf.SkfConstants(kind="spherical", r1=1e-6, s1=0.16, s2=0.0015)
+    with pytest.raises(InputError, match=r"constants\.roller_geometry: missing"):
+        CatalogueEntry(**size, constants=barrels, width=0.4).check(BARRELS)
     bare = skf.SkfConstants(kind="cylindrical", r1=1e-6, s1=0.16, s2=0.0015)
     with pytest.raises(InputError, match="roller_geometry"):
         skf.skf_drag_torque(bare, 1.0, 1e-4, 0.3, 0.5, 0.1, 0.1)

@@ -100,7 +100,7 @@ class CatalogueEntry:
         InputError
             A kind that these catalogues do not know, diameters within its raceways, a series or
             constants of another type, an `axial_factor` of rollers that are not tapered, a `width`
-            of balls, or an `oil_level` of rollers without it.
+            of balls, or an `oil_level` of rollers without it or without K_L.
         """
         kind = bearing.catalogue_kind
         if kind is None:
@@ -132,8 +132,13 @@ class CatalogueEntry:
             )
         if self.width is not None and bearing.element == "ball":
             raise InputError("width: left out where balls roll; SKF's drag of rollers reads it")
-        if self.oil_level is not None and bearing.element == "roller" and self.width is None:
-            raise InputError("width: missing; the drag of rollers in oil needs it")
+        if self.oil_level is not None and bearing.element == "roller":
+            if self.width is None:
+                raise InputError("width: missing; the drag of rollers in oil needs it")
+            if self.constants is not None and self.constants.roller_geometry is None:
+                raise InputError(
+                    "constants.roller_geometry: missing; K_L of the drag of rollers in oil"
+                )
 
     def skf(self, bearing: RollingGeometry, greased: bool) -> SkfConstants | None:
         """Constants of SKF's model for a bearing with grease or oil; None if none are stated."""
@@ -159,8 +164,8 @@ def torques_beside(
     Catalogues rate single rows of balls and of cylindrical and tapered rollers: each row has the
     force on its own elements, preload and tilt with it, and the rows add up; the preload of both
     diagonals of four-point balls cancels, as catalogues have none. Spherical bearings are rated
-    whole, with the force on the bearing. Torques are those of a bearing that turns; seals are not
-    in them, and drag of the oil where the entry has an `oil_level`.
+    whole, with the force on the bearing. Torques are those of a bearing that turns. Seals are not
+    in them; where the entry has an `oil_level`, the drag of the oil is, once for each row rated.
 
     Parameters
     ----------
@@ -227,7 +232,7 @@ def _with_entry(
     kind, constants = bearing.catalogue_kind, entry.skf(bearing, greased)
     assert kind is not None
     size, parts = (entry.bore, entry.outside_diameter), loads[0].shape[-1]
-    capacity = bearing.static_capacity / parts if kind == "deep groove" else None
+    capacity = bearing.static_capacity / parts
     found = catalogue_torques(kind, *loads, turning, viscosity, *size, constants, capacity)
     if constants is not None and entry.oil_level is not None:
         if greased:

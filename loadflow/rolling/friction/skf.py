@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import tomllib
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from annotated_types import Ge, Gt
@@ -32,19 +32,6 @@ CatalogueKind = Literal[
 ]
 _NotNegative = Annotated[float, Ge(0)]
 _RPM = 30 / np.pi  # rad/s in 1/min
-
-_BALLS = ("deep groove", "angular contact", "four-point")
-_SLIDING = {"cylindrical": 0.02, "tapered": 0.002}  # μ_EHL; other bearings 0.05 (mineral oil)
-
-# constants that the formulas of each type have beside R1, S1, S2 and K_Z
-_READ = {
-    "cylindrical": ("roller_geometry",),
-    "tapered": ("r2", "axial_factor", "roller_geometry"),
-    "spherical": ("r2", "r3", "r4", "s3", "s4", "roller_geometry"),
-    "deep groove": ("r2",),
-    "angular contact": ("r2", "r3", "s3"),
-    "four-point": ("r2", "r3", "s3"),
-}
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,13 +90,13 @@ class SkfConstants:
     @property
     def of_balls(self) -> bool:
         """Whether its bearings roll on balls."""
-        return self.kind in _BALLS
+        return _LAWS[self.kind].balls
 
     def idle(self) -> Iterator[tuple[str, str]]:
         """Constants that the formulas of the type do not have, and why."""
         what = f"{self.kind} bearings" if self.of_balls else f"{self.kind} rollers"
         for name in ("r2", "r3", "r4", "s3", "s4", "axial_factor", "roller_geometry"):
-            if name not in _READ[self.kind]:
+            if name not in _LAWS[self.kind].read:
                 yield name, f"SKF's formulas of {what} have none"
 
 
@@ -197,7 +184,8 @@ def skf_torque(
     boundary : float
         μ_bl of boundary lubrication.
     static_capacity : float, optional
-        C₀, N; of deep groove bearings, whose contact angle follows from F_a/C₀.
+        C₀, N; of deep groove bearings, whose contact angle follows from F_a/C₀. SKF's sliding
+        torque of them jumps where there is no thrust; below 1e-9 F_r there is none.
 
     Raises
     ------
@@ -216,34 +204,45 @@ def skf_torque(
     n = np.abs(np.asarray(speed, float)) * _RPM
     nu, d, big = np.asarray(viscosity, float) * 1e6, bore * 1e3, outside_diameter * 1e3
     mean = (d + big) / 2
-    if constants.kind == "deep groove":
-        rolling, sliding = _deep_groove(constants, fr, fa, mean, static_capacity)
-    elif constants.of_balls:
-        rolling, sliding = _angular_contact(constants, fr, fa, mean, n)
-    else:
-        rolling, sliding = _ROLLERS[constants.kind](constants, fr, fa, mean)
+    law = _LAWS[constants.kind]
+    rolling, sliding = law.parts(constants, _Load(fr, fa, mean, n, static_capacity))
     heated = 1 / (1 + 1.84e-9 * (n * mean) ** 1.28 * nu**0.64)
     crowd = np.sqrt(constants.geometry / (2 * (big - d)))
     refill = np.exp(-constants.starvation * nu * n * (d + big) * crowd)
     dry = np.exp(-2.6e-8 * (n * nu) ** 1.4 * mean)
-    friction = dry * boundary + (1 - dry) * _SLIDING.get(constants.kind, 0.05)
+    friction = dry * boundary + (1 - dry) * law.sliding
     return (
         np.asarray(heated * refill * rolling * (nu * n) ** 0.6 * 1e-3),
         np.asarray(sliding * friction * 1e-3),
     )
 
 
-def _cylindrical(c: SkfConstants, fr: Array, fa: Array, mean: float) -> tuple[Array, Array]:
+class _Load(NamedTuple):
+    """Loads (N), mean diameter (mm), speed (1/min) and static capacity (N) of a bearing."""
+
+    fr: Array
+    fa: Array
+    mean: float
+    n: Array
+    static_capacity: float | None
+
+
+_Parts = tuple[Array, Array]
+
+
+def _cylindrical(c: SkfConstants, load: _Load) -> _Parts:
+    fr, fa, mean = load[:3]
     return c.r1 * mean**2.41 * fr**0.31, c.s1 * mean**0.9 * fa + c.s2 * mean * fr
 
 
-def _tapered(c: SkfConstants, fr: Array, fa: Array, mean: float) -> tuple[Array, Array]:
-    thrust = c.axial_factor * fa
+def _tapered(c: SkfConstants, load: _Load) -> _Parts:
+    fr, thrust, mean = load.fr, c.axial_factor * load.fa, load.mean
     rolling = c.r1 * mean**2.38 * (fr + c.r2 * thrust) ** 0.31
     return rolling, c.s1 * mean**0.82 * (fr + c.s2 * thrust)
 
 
-def _spherical(c: SkfConstants, fr: Array, fa: Array, mean: float) -> tuple[Array, Array]:
+def _spherical(c: SkfConstants, load: _Load) -> _Parts:
+    fr, fa, mean = load[:3]
     points = c.r1 * mean**1.85 * (fr + c.r2 * fa) ** 0.54
     lines = c.r3 * mean**2.3 * (fr + c.r4 * fa) ** 0.31
     rolling = np.minimum(points, lines)
@@ -252,30 +251,52 @@ def _spherical(c: SkfConstants, fr: Array, fa: Array, mean: float) -> tuple[Arra
     return rolling, np.minimum(points, lines)
 
 
-_ROLLERS = {"cylindrical": _cylindrical, "tapered": _tapered, "spherical": _spherical}
-
-
-def _deep_groove(
-    c: SkfConstants, fr: Array, fa: Array, mean: float, static_capacity: float | None
-) -> tuple[Array, Array]:
-    if static_capacity is None:
+def _deep_groove(c: SkfConstants, load: _Load) -> _Parts:
+    fr, mean, capacity = load.fr, load.mean, load.static_capacity
+    if capacity is None:
         raise InputError("static_capacity: C₀ gives the contact angle of deep groove bearings")
-    # without thrust there is no angle, and SKF has another power of the diameter
-    pushed = fa > 0
-    share = np.where(pushed, fa, static_capacity) / static_capacity
-    sine = np.sin(np.radians(24.6 * share**0.24))
-    rolling = c.r1 * mean**1.96 * (fr + np.where(pushed, c.r2 / sine * fa, 0.0)) ** 0.54
+    # without thrust there is no angle, and SKF has another power of the diameter, so that the
+    # torque jumps there: what rounding leaves of the forces of the balls is no thrust
+    pushed = load.fa > _NO_THRUST * fr
+    fa = np.where(pushed, load.fa, 0.0)
+    sine = np.sin(np.radians(24.6 * (np.where(pushed, fa, capacity) / capacity) ** 0.24))
+    rolling = c.r1 * mean**1.96 * (fr + c.r2 / sine * fa) ** 0.54
     thrust = c.s1 * mean**-0.145 * (fr**5 + c.s2 * mean**1.5 / sine * fa**4) ** (1 / 3)
     return rolling, np.where(pushed, thrust, c.s1 * mean**-0.26 * fr ** (5 / 3))
 
 
-def _angular_contact(
-    c: SkfConstants, fr: Array, fa: Array, mean: float, n: Array
-) -> tuple[Array, Array]:
-    flung = mean**4 * n**2  # of the balls by the turning of the cage
+def _angular_contact(c: SkfConstants, load: _Load) -> _Parts:
+    fr, fa, mean = load[:3]
+    flung = mean**4 * load.n**2  # of the balls by the turning of the cage
     rolling = c.r1 * mean**1.97 * (fr + c.r3 * flung + c.r2 * fa) ** 0.54
     sliding = c.s1 * mean**0.26 * ((fr + c.s3 * flung) ** (4 / 3) + c.s2 * fa ** (4 / 3))
     return rolling, sliding
+
+
+_NO_THRUST = 1e-9  # of the radial load
+
+
+class _Law(NamedTuple):
+    """What SKF has for a type of bearing."""
+
+    parts: Callable[[SkfConstants, _Load], _Parts]
+    """G_rr (ν n)^-0.6 and G_sl, N mm, as functions of constants and load."""
+    read: tuple[str, ...]
+    """Constants beside R₁, S₁, S₂ and K_Z."""
+    sliding: float = 0.05
+    """μ_EHL (mineral oil)."""
+    balls: bool = False
+
+
+_OF_ANGLED_BALLS = ("r2", "r3", "s3")
+_LAWS: dict[CatalogueKind, _Law] = {
+    "cylindrical": _Law(_cylindrical, ("roller_geometry",), sliding=0.02),
+    "tapered": _Law(_tapered, ("r2", "axial_factor", "roller_geometry"), sliding=0.002),
+    "spherical": _Law(_spherical, ("r2", "r3", "r4", "s3", "s4", "roller_geometry")),
+    "deep groove": _Law(_deep_groove, ("r2",), balls=True),
+    "angular contact": _Law(_angular_contact, _OF_ANGLED_BALLS, balls=True),
+    "four-point": _Law(_angular_contact, _OF_ANGLED_BALLS, balls=True),
+}
 
 
 def skf_drag_torque(
@@ -290,7 +311,8 @@ def skf_drag_torque(
     """Drag M_drag of the oil of a bath after SKF, N m.
 
     Of a shaft that lies in a large bath at constant speed, its inner ring turning. V_M is read from
-    a diagram: within 6 % for H ≥ 0.2 d_m of balls, 20 % of rollers, 40 % at 0.05 d_m.
+    a diagram: within 6 % for H ≥ 0.2 d_m of balls, 20 % of rollers, 40 % at 0.05 d_m. It is that of
+    one row: SKF counts the rows of balls in what grows with n² alone, not in the rest.
 
     Parameters
     ----------

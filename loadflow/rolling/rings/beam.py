@@ -25,7 +25,7 @@ from annotated_types import Ge, Gt, Le
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.fields import check_fields
 from loadflow.rolling.contacts import Array
-from loadflow.rolling.rings.bolts import BoltCircle
+from loadflow.rolling.rings.bolts import BoltCircle, bolts_of
 from loadflow.rolling.rings.patches import PatchPoints
 from loadflow.rolling.rings.section import LARGEST, RingSection, Support
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
@@ -80,7 +80,7 @@ class RingBeam:
 
     def __post_init__(self) -> None:
         check_fields(self)
-        if any(isinstance(s, BoltCircle) and s.height == self.height for s in self.supports):
+        if any(bolts.height == self.height for bolts in bolts_of(self)):
             raise InputError("supports: bolts must clamp a face of the ring, not its centroid")
 
     def of(self, bearing: object, ring: str) -> RingBeam:

@@ -13,7 +13,7 @@ yield strength with the torsion of tightening.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -159,6 +159,11 @@ class BoltCircle:
         return (2 * cones / (math.pi * hole * tan) + sleeve / area) / STEEL_MODULUS
 
     @property
+    def joint_stiffness(self) -> float:
+        """Of a closed joint along one bolt, N/m: the bolt and what it clamps, side by side."""
+        return 1 / self.clamped_compliance + 1 / self.bolt_compliance
+
+    @property
     def load_factor(self) -> float:
         """Φ: share of a pull along the axis, under head and nut, that a bolt carries."""
         return self.clamped_compliance / (self.clamped_compliance + self.bolt_compliance)
@@ -192,8 +197,7 @@ class BoltCircle:
         friction holds: along it the clamped parts yield in shear, and against tilt in bending, as a
         sleeve that is as stiff as they are.
         """
-        stiff = 1 / self.clamped_compliance
-        axial = stiff + 1 / self.bolt_compliance
+        stiff, axial = 1 / self.clamped_compliance, self.joint_stiffness
         shear = stiff / (2 * (1 + STEEL_POISSON))
         area = stiff * self.grip / STEEL_MODULUS
         around = 4 * area / math.pi + 2 * self._hole**2  # D² + d_h² of that sleeve
@@ -243,9 +247,12 @@ class BoltLoads:
         return np.asarray(self.bolts.preload + self.bolts.load_factor * self.pull)
 
 
-def bolt_loads(
-    result: ContactResult[RollingGeometry], ring: Raceway, cases: ArrayLike | None = None
-) -> list[BoltLoads]:
+def bolts_of(ring: object) -> list[BoltCircle]:
+    """Circles of bolts among the supports of a ring; none of a ring without supports."""
+    return [held for held in getattr(ring, "supports", ()) if isinstance(held, BoltCircle)]
+
+
+def bolt_loads(result: ContactResult[RollingGeometry], ring: Raceway) -> list[BoltLoads]:
     """Loads of the bolts of a flexible ring, circle by circle.
 
     Parameters
@@ -254,8 +261,6 @@ def bolt_loads(
         With ``rings=FlexibleRings(…)``.
     ring : {"inner", "outer"}
         Which ring.
-    cases : array_like of int, optional
-        Of these load cases only, of one axis of them.
 
     Raises
     ------
@@ -282,22 +287,14 @@ def bolt_loads(
     if not isinstance(elements, FlexibleRingForces):
         raise InputError(f"ring: the {ring} ring is rigid")
     model: Any = getattr(elements.rings, ring)
-    circles = [s for s in getattr(model, "supports", ()) if isinstance(s, BoltCircle)]
+    circles = bolts_of(model)
     if not circles:
         raise InputError(f"ring: the {ring} ring has no bolts; give its supports a BoltCircle")
-    if cases is not None:
-        some = np.asarray(cases, int)
-        elements = replace(
-            elements,
-            displacement=elements.displacement[some],
-            amplitudes=elements.amplitudes[some],
-        )
     modal = elements.modal_force(ring)
     found = []
     for bolts in circles:
         places = PatchPoints(np.array([bolts.radius]), np.array([bolts.height]), bolts.azimuth)
         lifted = np.einsum("bm,...m->...b", model.flexibility(places)[0, :, 2], modal)
         away = 1.0 if model.height > bolts.height else -1.0
-        each = bolts.springs.axial * 2 * np.pi * bolts.radius / bolts.count
-        found.append(BoltLoads(bolts, away * each * lifted))
+        found.append(BoltLoads(bolts, away * bolts.joint_stiffness * lifted))
     return found

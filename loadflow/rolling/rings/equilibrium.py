@@ -125,21 +125,31 @@ class FlexibleRingForces:
         InputError
             If the ring is rigid.
         """
-        factor = self._factor(ring)
-        moved = np.einsum("kbcm,...m->...kbc", factor, self.modal_force(ring))
+        moved = np.einsum("kbcm,...m->...kbc", self._factor(ring), self.modal_force(ring))
         return self.modes.coupling.raceways(moved)
 
     def modal_force(self, ring: Literal["inner", "outer"]) -> Array:
         """Force of all contacts on the modes of a ring's `flexibility`, √(N m), (..., mode)."""
+        coupling, factor = self.modes.coupling, self._factor(ring)
         sign = 1.0 if ring == "outer" else -1.0
-        push = sign * self.modes.coupling.pushes(*self._state)
-        return np.einsum("...kbc,kbcm->...m", push, self._factor(ring))
+        parts = [
+            np.einsum("nkbc,kbcm->nm", coupling.pushes(*coupling.state(some, self.modes)), factor)
+            for some in self._in_blocks()
+        ]
+        return sign * np.concatenate(parts).reshape(*self._cases, factor.shape[-1])
 
     def _factor(self, ring: Literal["inner", "outer"]) -> Array:
-        model = self.rings.outer if ring == "outer" else self.rings.inner
-        if model is None:
-            raise InputError(f"ring: the {ring} ring is rigid")
-        return model.flexibility(self.modes.coupling.points(ring, self.rings))
+        if ring not in self._factors:
+            model = self.rings.outer if ring == "outer" else self.rings.inner
+            if model is None:
+                raise InputError(f"ring: the {ring} ring is rigid")
+            self._factors[ring] = model.flexibility(self.modes.coupling.points(ring, self.rings))
+        return self._factors[ring]
+
+    @cached_property
+    def _factors(self) -> dict[str, Array]:
+        """Of each ring that was asked for: its flexibility takes up to seconds."""
+        return {}
 
 
 def solve_flexible(
