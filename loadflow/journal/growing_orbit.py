@@ -15,11 +15,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import SolverError
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
 from loadflow.journal.models.model import Steps
-from loadflow.journal.thermal import grown_by
-from loadflow.quantities import FILM
+from loadflow.journal.thermal import LEFT, clearance_at, grown_by
+from loadflow.numerics.convergence import EPS
+from loadflow.quantities import FILM, GRID_ERROR
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -57,16 +59,21 @@ def growing_orbit(
     Raises
     ------
     loadflow.errors.SolverError
-        As `piece`.
+        As `piece`; the shaft grows into its shell.
     """
     begun, length, warm = 0, _FIRST, start
     paths: list[xr.Dataset] = []
     place = None if steps.start is None else steps.start * bearing.clearance
     while True:
         grown = grown_by(bearing, heat, warm)
+        if grown.clearance <= LEFT * bearing.clearance * (1.0 + EPS):
+            raise SolverError(f"the shaft grows into its shell at sample {begun}, {warm:.5g} K")
         own = replace(steps, start=None if place is None else place / grown.clearance)
-        path = piece(grown, slice(begun, min(begun + length, count - 1) + 1), warm, own)
-        after = bearing.clearance + _growth(heat, path["temperature"].values, bearing.radius)
+        try:
+            path = piece(grown, slice(begun, min(begun + length, count - 1) + 1), warm, own)
+        except SolverError as error:
+            raise SolverError(f"from sample {begun} on: {error}") from error
+        after = clearance_at(bearing, heat, path["temperature"].values)
         far = np.flatnonzero(np.abs(after - after[0]) > CHANGE * grown.clearance)
         # a step that alone goes farther is a piece of its own
         took = max(int(far[0]) - 1, 1) if far.size else after.size - 1
@@ -82,20 +89,20 @@ def growing_orbit(
         length = 2 * took
 
 
-def _growth(heat: Heat, temperature: Array, radius: float) -> Array:
-    assert heat.growth is not None
-    return heat.growth.radial(temperature, heat.ambient_temperature, radius)
-
-
 def _joined(paths: list[xr.Dataset]) -> xr.Dataset:
-    """All pieces, with the bounds of the piece in which the film is narrowest."""
+    """All pieces, each bound that of the piece in which its answer is worst.
+
+    A piece is cut after it is solved, so that its bound may be that of a sample that was dropped.
+    """
     import xarray as xr
 
-    narrow = min(paths, key=lambda path: float(path["minimum_film"].min(skipna=True)))
+    narrow = min(paths, key=lambda path: float(path["minimum_film"].min()))
+    high = max(paths, key=lambda path: float(path["maximum_pressure"].max()))
     about = dict(narrow.attrs)
-    for name, of_all in (("mass_balance", np.max), ("cells_around", np.max)):
-        told = [path.attrs[name] for path in paths if name in path.attrs]
-        if told:
-            about[name] = type(told[0])(of_all(np.abs(told)))
+    pressed = f"maximum_pressure{GRID_ERROR}"
+    about |= {name: value for name, value in high.attrs.items() if name == pressed}
+    for name in ("mass_balance", "cells_around"):
+        if name in about:
+            about[name] = max((path.attrs[name] for path in paths), key=abs)
     joined = xr.concat(paths, dim="time", data_vars="minimal", coords="minimal", compat="override")
     return joined.assign_attrs(about)

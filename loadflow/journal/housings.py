@@ -187,9 +187,8 @@ class HousedShell(ElasticShell):
             Housing smaller than the shell, shorter than the bearing, a foot or flange beyond it.
         """
         inner = diameter + 2 * self.shell_thickness
-        require(
-            self.outer_diameter > inner, "outer_diameter", self.outer_diameter, f"m, > {inner:.6g}"
-        )
+        needed = f"must be > {inner:.6g} m"
+        require(self.outer_diameter > inner, "outer_diameter", self.outer_diameter, needed)
         length = self.length_around(width)
         require(length >= width, "length", length, f"must be ≥ {width:.6g} m, that of the bearing")
         if isinstance(self.support, Feet):

@@ -280,16 +280,22 @@ def shares(weights: ArrayLike | None, shape: tuple[int, ...]) -> Array | None:
     return share
 
 
-def grown_by(bearing: JournalGeometry, heat: Heat, temperature: float) -> JournalGeometry:
-    """The bearing with the clearance that it has with a film at `temperature`, K.
+LEFT = 0.01
+"""Of the clearance, what is left where the shaft has grown into the shell; no film carries."""
 
-    Where the shaft has grown into the shell a hundredth of the clearance is left, in which no film
-    has a heat balance.
-    """
+
+def clearance_at(bearing: JournalGeometry, heat: Heat, temperature: ArrayLike) -> Array:
+    """Clearance with a film at some temperatures, K; m, at least `LEFT` of that as it is made."""
+    assert heat.growth is not None
+    wider = heat.growth.radial(temperature, heat.ambient_temperature, bearing.radius)
+    return np.maximum(bearing.clearance + wider, LEFT * bearing.clearance)
+
+
+def grown_by(bearing: JournalGeometry, heat: Heat, temperature: float) -> JournalGeometry:
+    """The bearing with the clearance that it has with a film at `temperature`, K."""
     if heat.growth is None:
         return bearing
-    wider = float(heat.growth.radial(temperature, heat.ambient_temperature, bearing.radius))
-    clearance = max(bearing.clearance + wider, 0.01 * bearing.clearance)
+    clearance = float(clearance_at(bearing, heat, temperature))
     return replace(bearing, relative_clearance=clearance / bearing.radius)
 
 

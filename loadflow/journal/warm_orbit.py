@@ -81,46 +81,30 @@ def warm_orbit(
     start = heat.start_temperature
     if start is None or heat.capacity is None:
         start = series_temperature(model, bearing, film, force, speed, line)
+    stays = film if heat.capacity is None else replace(film, heat=replace(heat, growth=None))
+
+    def piece(grown: JournalGeometry, some: slice, warm: float, own: Steps) -> xr.Dataset:
+        """Path over some samples in a bearing that stays as it is, from a temperature, K."""
+        times, loads, speeds = time[some], force[some], speed[some]
+        lies = line.at(np.arange(time.size)[some])
+        held = replace(stays, lubricant=heat.lubricant(warm), heat=None)
+
+        def path(times: Array, speeds: Array) -> xr.Dataset:
+            return model.orbit(grown, held, times, loads, speeds, lies, limits, own)
+
+        if heat.capacity is None:
+            return _told(path(times, speeds), np.full(times.size, warm))
+        if getattr(model, "stores_heat", False):
+            begins = replace(own, temperature=warm)
+            return model.orbit(grown, stays, times, loads, speeds, lies, limits, begins)
+        return _in_turns(path, heat, times, speeds, warm)
+
     if heat.capacity is not None and heat.growth is not None:
-        still = replace(film, heat=replace(heat, growth=None))
-
-        def piece(grown: JournalGeometry, some: slice, warm: float, own: Steps) -> xr.Dataset:
-            lies = line.at(np.arange(some.start, some.stop))
-            series = time[some], force[some], speed[some]
-            return _of_clearance(model, grown, still, *series, lies, limits, own, warm)
-
         return growing_orbit(piece, bearing, heat, time.size, start, steps)
     grown = grown_by(bearing, heat, start)
     if steps.start is not None:  # told in clearances as they are made
         steps = replace(steps, start=steps.start * (bearing.clearance / grown.clearance))
-    return _of_clearance(model, grown, film, time, force, speed, line, limits, steps, start)
-
-
-def _of_clearance(
-    model: Model,
-    bearing: JournalGeometry,
-    film: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    steps: Steps,
-    start: float,
-) -> xr.Dataset:
-    """Path in a bearing that stays as it is, from a temperature, K."""
-    heat = cast("Heat", film.heat)
-    held = replace(film, lubricant=heat.lubricant(start), heat=None)
-
-    def path(times: Array, speeds: Array) -> xr.Dataset:
-        return model.orbit(bearing, held, times, force, speeds, line, limits, steps)
-
-    if heat.capacity is None:
-        return _told(path(time, speed), np.full(time.size, start))
-    if getattr(model, "stores_heat", False):
-        steps = replace(steps, temperature=start)
-        return model.orbit(bearing, film, time, force, speed, line, limits, steps)
-    return _in_turns(path, heat, time, speed, start)
+    return piece(grown, slice(0, time.size), start, steps)
 
 
 def series_temperature(

@@ -10,7 +10,9 @@ from numba import njit
 LINKED: dict[str, Any] = {"cache": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Options of numba for it: ``njit(nogil=True, **LINKED)``.
 
-Such a kernel has no way in from Python, whose making takes a part of the time of compiling.
+Such a kernel has no way in from Python, whose making takes a part of the time of compiling. The
+cache knows a function by its name, not by these options: no function has both of `LINKED` and
+another way that is cached.
 """
 
 bare = partial(njit, nogil=True, error_model="numpy", _nrt=False)
@@ -19,3 +21,6 @@ bare = partial(njit, nogil=True, error_model="numpy", _nrt=False)
 It counts no references to arrays, whose code took a quarter of the time of compiling; a division by
 zero gives infinity or NaN.
 """
+
+contracted = partial(bare, fastmath={"contract"})
+"""The same, where a product and a sum may be rounded once, in one instruction."""

@@ -46,17 +46,6 @@ class Shown(ABC):
                 yield quantity, *in_words(np.asarray(value), quantity.units)
 
 
-def cases_in_words(number: int) -> str:
-    """How many load cases, in words.
-
-    Examples
-    --------
-    >>> cases_in_words(1), cases_in_words(12)
-    ('1 load case', '12 load cases')
-    """
-    return f"{number} load case{'' if number == 1 else 's'}"
-
-
 def in_words(values: np.ndarray, units: str) -> tuple[str, str]:
     """Values in few words, and the unit in which they are.
 

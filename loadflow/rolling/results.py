@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.shown import Shown, cases_in_words, in_words
-from loadflow.quantities import ROLLING, Quantity
+from loadflow.numerics.shown import Shown, in_words
+from loadflow.quantities import ROLLING, Quantity, load_cases
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
@@ -340,7 +340,7 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         return plots.element_forces(self.element_azimuth, groups, names)
 
     def __repr__(self) -> str:
-        what = f"{type(self.bearing).__name__}, {cases_in_words(int(np.prod(self.cases)))}"
+        what = f"{type(self.bearing).__name__}, {load_cases(int(np.prod(self.cases)))}"
         lines = [f"<{type(self).__name__} of {what}>"]
         for name in ("maximum_force", "maximum_pressure", "static_safety", "rating_life"):
             _, units, meaning = ROLLING[name]

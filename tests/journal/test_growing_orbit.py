@@ -85,9 +85,27 @@ def test_half_the_steps_have_the_same_temperatures():
     np.testing.assert_allclose(coarse["minimum_film"], fine["minimum_film"][::2], rtol=3 * CHANGE)
 
 
-def test_a_shaft_that_grows_into_its_shell_while_it_warms_is_told():
-    with pytest.raises(SolverError):
-        run_up(film(growth=Growth(shell_share=0.1)), hours=12.0)
+@pytest.mark.parametrize(("hours", "sample"), [(12.0, r"1\d"), (3.0, r"4\d|5\d")])
+def test_a_shaft_that_grows_into_its_shell_while_it_warms_is_told(hours, sample):
+    """After some 20 minutes, whatever the steps; the sample is that of the whole path."""
+    with pytest.raises(SolverError, match=rf"grows into its shell at sample ({sample}), 3\d\d"):
+        run_up(film(growth=Growth(shell_share=0.1)), hours=hours)
+
+
+def test_each_bound_is_that_of_the_piece_in_which_its_answer_is_worst():
+    """A heavy load while the film is thick and cold; later the shaft is slow and its film thin."""
+    time = np.linspace(0.0, 3600.0, 361)
+    late = time > 1800.0
+    force = np.where(late, 4e5, 2.5e6)[:, None] * np.array([1.0, 0.0])
+    speed = np.where(late, 0.02, SPEED)
+    options = film("grid", growth=NARROWS)
+    path = BEARING.orbit(time, force, speed, options)
+    high = int(np.argmax(path["maximum_pressure"].values))
+    narrow = int(np.argmin(path["minimum_film"].values))
+    assert time[high] < 1800.0 < time[narrow]
+    early = BEARING.orbit(time[~late], force[~late], speed[~late], options)
+    told = "maximum_pressure_grid_error"
+    assert path.attrs[told] == pytest.approx(early.attrs[told], rel=0.3)
 
 
 def test_a_start_is_told_in_metres_whatever_has_grown():

@@ -36,8 +36,14 @@ FILMS += [Film(OIL, law, EDGE, supply=GROOVE, grid=GRID) for law in LAWS]
 
 
 def both(monkeypatch, ask):
-    """What `ask` gives with the loop, and part by part."""
+    """What `ask` gives with the loop, which takes every film of it, and part by part."""
+    taken = []
+    monkeypatch.setattr(
+        newton, "as_cylinder", lambda film: taken.append(as_cylinder(film)) or taken[-1]
+    )
     whole = ask()
+    assert taken
+    assert all(one is not None for one in taken)
     monkeypatch.setattr(newton, "as_cylinder", lambda film: None)
     return whole, ask()
 

@@ -1,5 +1,8 @@
 """Compiled: the linear system of a film's Newton step, in LAPACK's storage of a band.
 
+Of films on "grid"; those of the rung "reduced", which need no exchange of rows, have a storage and
+kernels of their own (`loadflow.journal.models._band_kernels`).
+
 `factors` (n, width) hold a column of the band in each row, with room for the fill that an exchange
 of rows makes: entry (i, j) of the matrix is ``factors[j, 2 kl + i − j]``, as `dgbtrf` has it, and
 all else is 0, see `band_storage`. The balance of a film is dominated by its diagonal in each
@@ -9,18 +12,15 @@ column, so that hardly ever a row is exchanged: the upper factor stays as narrow
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 
 from loadflow.numerics.lanes import LANES, lanes_for, larger, largest, magnitude, put, spread, take
-from loadflow.numerics.linked import bare
+from loadflow.numerics.linked import contracted
 
 PANEL = 4  # columns that are eliminated together
 
 # parts that are called at one place are compiled as parts of it
-_plain = partial(bare, fastmath={"contract"})
-_whole, _part = _plain(cache=True), _plain(inline="always")
+_whole, _part = contracted(cache=True), contracted(inline="always")
 
 
 def band_storage(count: int, bandwidth: int) -> np.ndarray:

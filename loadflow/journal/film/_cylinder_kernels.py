@@ -23,7 +23,7 @@ from loadflow.journal.film._kernels import (
     right_hand_sides,
 )
 from loadflow.journal.film.film import AXIS
-from loadflow.numerics.convergence import EPS, rounding_level
+from loadflow.numerics.convergence import EPS, is_small, rounding_level, stalled
 from loadflow.numerics.linked import LINKED, bare
 
 part = bare(inline="always")
@@ -32,7 +32,7 @@ part = bare(inline="always")
 inner = bare(**LINKED)
 """Of a function that is called at several."""
 
-level_of = part(rounding_level)
+level_of, small_enough, no_longer = part(rounding_level), part(is_small), part(stalled)
 
 
 @inner

@@ -66,7 +66,7 @@ class DiscreteFilm:
         self.gap = gap
         self.mesh = mesh = gap.mesh
         self.law = law
-        self._address, self._numbers = law.address, np.array(law.numbers, dtype=float)
+        self.address, self.numbers = law.address, np.array(law.numbers, dtype=float)
         self.ruptures = law.ruptures
         self.p_edge = float(edge_pressure)
         self.p_line = self.p_edge if end_pressure is None else float(end_pressure)
@@ -92,7 +92,7 @@ class DiscreteFilm:
         self.state = np.empty((8, nx, nz))
         self.elastic = False  # whether the gap follows the pressure
         self.mirrors = 2.0 if mesh.half else 1.0
-        self._unit = self.mirrors * radius**2  # of loads
+        self.unit = self.mirrors * radius**2  # of loads
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
         self.contact: AsperityLoad | None = None  # of rough surfaces, which may touch
         self.sheared_by_fill = False  # whether friction counts the share of liquid, not the gap
@@ -157,7 +157,7 @@ class DiscreteFilm:
     def _apply_law(self, u: Array) -> None:
         """Fill `state` from the unknowns `u`."""
         u = np.ascontiguousarray(u)
-        kernel.apply_law(self._address, self._numbers, self.scale, u, self.state)
+        kernel.apply_law(self.address, self.numbers, self.scale, u, self.state)
         if self.law.moves_by_cells and self.pockets.free.size:
             self._keep_full(u)
         if self.thickening is not None:
@@ -274,7 +274,7 @@ class DiscreteFilm:
         if free.size:
             columns = self._freed(columns, np.array(flows), growth[0])
 
-        carried, loads = self._unit * self._carried(columns), self._unit * self._loads(modes)
+        carried, loads = self.unit * self._carried(columns), self.unit * self._loads(modes)
         load = loads[0] - self.ambient - carried[0]
         if not math.isfinite(float(load.sum())):
             raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
@@ -348,7 +348,7 @@ class DiscreteFilm:
 
     def load_of(self, frame: Array, position: Array) -> Array:
         """Load of film and asperities at the state last placed, N."""
-        load = frame @ (self._unit * self._loads(self.gap.around[None])[0] - self.ambient)
+        load = frame @ (self.unit * self._loads(self.gap.around[None])[0] - self.ambient)
         return load if self.contact is None else load + self.contact.at(position).load
 
     # --- what Newton needs -----------------------------------------------------------------------

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import CylindricalGap
+from loadflow.journal.film.imbalance import flux_of
 
 Array = NDArray[np.float64]
 
@@ -40,11 +41,11 @@ class Cylinder(NamedTuple):
         Cells, gap and matrix, filled by the loops.
     pivots, growth, modes, fields, carried, loads
         Work arrays.
-    columns : array (2, 5, n)
-        Room for the answers of the last two linearisations.
+    columns : array (2, m + 2, n)
+        Room for the answers of the last two linearisations; m is 3, or 2 of a mesh that turns.
     found : array (2, 5, 2)
         Load, stiffness and damping of the last linearisation, and of the one at work.
-    weights, moving : array (5,), (2,)
+    weights, moving : array (m + 2,), (2,)
         Of the columns in a step; velocity of the shaft.
     """
 
@@ -94,8 +95,7 @@ def as_cylinder(film: DiscreteFilm) -> Cylinder | None:
     known = cast("Cylinder | None", film.whole)
     if known is None:
         known = film.whole = _laid_out(film, gap)
-    flux = (abs(film.wedge) + film.scale) * float(film.mesh.area.max())
-    return known._replace(scale=film.scale, wedge=film.wedge, flux=flux)
+    return known._replace(scale=film.scale, wedge=film.wedge, flux=flux_of(film))
 
 
 def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:
@@ -104,8 +104,8 @@ def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:
     face, cell = mesh.trigonometry
     most = moves + gap.size
     return Cylinder(
-        address=film.law.address,
-        numbers=np.array(film.law.numbers, dtype=float),
+        address=film.address,
+        numbers=film.numbers,
         scale=film.scale,
         face=face,
         cell=cell,
@@ -119,7 +119,7 @@ def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:
         wedge=film.wedge,
         slope=film.slope,
         edges=film.edges,
-        unit=film.mirrors * film.radius**2,
+        unit=film.unit,
         flux=math.nan,
         width=float(mesh.dz.sum()),
         state=film.state,

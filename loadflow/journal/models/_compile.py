@@ -8,20 +8,13 @@ alone call has no way in from Python. A function is compiled again in each that 
 are few. Films with effects are handed on by their place, see `refer`; those without are small.
 """
 
-from functools import partial
+from loadflow.numerics.linked import LINKED, contracted
 
-from numba import njit
-
-from loadflow.numerics.linked import LINKED
-
-# "contract": a product and a sum may be rounded once, in one instruction
-_plain = partial(njit, nogil=True, error_model="numpy", fastmath={"contract"}, _nrt=False)
-
-outer = _plain(cache=True)
+outer = contracted(cache=True)
 """Of a function that Python calls; compiling it takes most of the time, so there are few."""
 
-inner = _plain(**LINKED)
+inner = contracted(**LINKED)
 """Of a function that compiled ones alone call."""
 
-once = _plain(inline="always")
+once = contracted(inline="always")
 """Of a function that is called at one place alone, of which it becomes a part."""

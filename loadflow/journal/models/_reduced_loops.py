@@ -9,8 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.journal.cavitation import FILL, LOAD
+from loadflow.journal.film import _gap_kernels
+from loadflow.journal.film.gap import KEPT
 from loadflow.journal.models._band_kernels import factorise, substitute
-from loadflow.journal.models._compile import inner, outer
+from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._reduced_kernels import (
     NO_GAP,
     balance,
@@ -41,24 +43,7 @@ LATE = 8  # Newton steps after which a residual is asked whether it is that of r
 COARSEST = convergence.COARSEST
 rounding_level = inner(convergence.rounding_level)
 is_small = inner(convergence.is_small)
-
-
-@inner
-def limited(x, y, dx, dy):
-    """Position after a step, of which the narrowest gap keeps at least a third of its height.
-
-    An eccentric shaft goes along the gap, not along the chord.
-    """
-    ratio = np.hypot(x, y)
-    limit = 1.0 - 0.3 * (1.0 - ratio)
-    if ratio < 0.5:
-        length = np.hypot(x + dx, y + dy)
-        share = limit / length if length > limit else 1.0
-        return share * (x + dx), share * (y + dy)
-    radial = (x * dx + y * dy) / ratio
-    turn = np.arctan2(y, x) + max(-0.5, min(0.5, (x * dy - y * dx) / ratio**2))
-    length = max(0.3, min(limit, ratio + radial))
-    return length * np.cos(turn), length * np.sin(turn)
+along_the_gap = once(_gap_kernels.along_the_gap.py_func)
 
 
 @inner
@@ -87,7 +72,7 @@ def shaft_step(film, work, x, y, gx, gy):
     if film.ring.shaped:
         share = clear(film.ring, work, dx, dy)
         return x + share * dx, y + share * dy
-    return limited(x, y, dx, dy)
+    return along_the_gap(x, y, dx, dy, 1.0 - KEPT * (1.0 - np.hypot(x, y)))
 
 
 @inner

@@ -181,7 +181,8 @@ def _pairs(
     verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps
 ) -> Iterator[tuple[str, Any, bool, str]]:
     """What does not go with another part: name, value, whether that is there, words."""
-    pads = any(part.tilting for part in bearing.shape.segments)
+    pads, growth = bearing.has_pads, getattr(film.heat, "growth", None)
+    stored = _kind_of_heat(film, verb) == "slow_heat"
     if film.rung == "reduced" and bearing.shape.segments:
         pressure = bearing.shape.groove_pressure
         at_ends = 'that of the bearing ends on rung = "reduced"'
@@ -192,18 +193,11 @@ def _pairs(
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
-        stored = _kind_of_heat(film, verb) == "slow_heat"
-        yield (
-            "heat",
-            film.heat,
-            stored and bool(steps.periodic),
-            "without capacity on a closed path",
-        )
-        follows = stored and getattr(film.heat, "growth", None) is not None
-        free = follows and (pads or line.moment is not None)
+        one = "without capacity on a closed path"
+        yield "heat", film.heat, stored and bool(steps.periodic), one
+        free = stored and growth is not None and (pads or line.moment is not None)
         one = "without growth where pads or a shaft tilt freely, or without capacity"
         yield "heat", film.heat, free, one
-    growth = getattr(film.heat, "growth", None)
     one = "None on a map, which has one clearance"
     yield "heat.growth", growth, growth is not None and film.rung == "map", one
     yield "heat.growth", growth, pads and over_area, "None for pads, whose backs are not held"
@@ -216,7 +210,6 @@ def _pairs(
     thick = film.liquid.pressure_coefficient > 0.0
     words = "None with a pressure_coefficient, by which the viscosity rises"
     yield "turbulence", film.turbulence, thick, words
-    stored = _kind_of_heat(film, verb) == "slow_heat"
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
     allowed = 'None with heat that is stored, but on rung = "reduced"'
     yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed

@@ -15,8 +15,10 @@ from loadflow.journal.film._cylinder_kernels import (
     imbalance,
     level_of,
     linearise,
+    no_longer,
     part,
     rounding,
+    small_enough,
     store,
 )
 from loadflow.journal.film._gap_kernels import along_the_gap
@@ -66,8 +68,9 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
                 allowed = rounding(film, place, rate, free, load_scale)
                 store(film, place, volume_rate)
                 level = min(allowed, COARSEST)
-                small = not ended and residual <= max(tolerance, level)
-                answered = small and (change <= max(QUADRATIC, finest) or before <= level)
+                small = not ended and small_enough(residual, tolerance, level)
+                short_enough = no_longer(change, max(QUADRATIC, finest))
+                answered = small and (short_enough or small_enough(before, 0.0, level))
             if answered and damped:
                 return ANSWERED, iteration, residual, allowed, last, count
             if not answered and (ended or iteration == most):

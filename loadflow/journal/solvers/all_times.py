@@ -18,6 +18,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.imbalance import imbalance, rounding
 from loadflow.journal.film.linearised import Linear, SingularFilm
+from loadflow.journal.solvers._newton_kernels import QUADRATIC, STEP_LIMIT
 from loadflow.journal.solvers.history import backward_difference
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 from loadflow.numerics.convergence import COARSEST, is_small
@@ -25,8 +26,6 @@ from loadflow.numerics.convergence import COARSEST, is_small
 Array = NDArray[np.float64]
 
 _NEWTON, _HALVINGS = 25, 20  # steps of the whole path, and how often one is halved
-_QUADRATIC = 1e-7  # a step this small leaves an error near its square
-_STEP_LIMIT = 0.5  # change of a film, over its pressure, beyond which the path's step is shortened
 _FIRST, _SMALLEST, _SWINGS = 0.25, 0.01, 30  # share of the swing of a load; of it, and tries
 _NEARER = (1.0, 0.5, 0.1)  # shares of a mean position, from which that of a mean load is sought
 _CELLS = 5_000_000  # of all times, up to which their Newton steps are kept: 160 MB
@@ -119,7 +118,7 @@ def solve_all_times(
         target = path + share * step
         change = _correct(film, films, linears, (path, target), rule)
         path = target
-        if change < _QUADRATIC:
+        if change < QUADRATIC:
             return _checked(film, films, linears, path, rule, force, speed, tolerance, number)
     return None
 
@@ -170,7 +169,7 @@ def _linearised(
     for u, place, moving, omega in zip(films, path, rule.velocity(path), speed[1:].tolist()):
         film.set_speed(omega)
         linears.append(film.linearise(u, place, moving))
-        largest = max(largest, film.size(linears[-1].columns[0]) / _STEP_LIMIT)
+        largest = max(largest, film.size(linears[-1].columns[0]) / STEP_LIMIT)
     return linears, largest
 
 

@@ -18,6 +18,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.linearised import SingularFilm
 from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.solvers._newton_kernels import QUADRATIC, STEP_LIMIT
 from loadflow.journal.solvers.assembly_balance import imbalance
 from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member, MemberState
 from loadflow.numerics.convergence import COARSEST, Limits, is_small
@@ -26,8 +27,6 @@ from loadflow.numerics.one_thread import on_one_thread
 Array = NDArray[np.float64]
 
 _SHIFTS = np.arange(3)
-_QUADRATIC = 1e-7  # a step this small leaves an error near its square
-_STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
 _LARGEST = 3.0  # factor of a pad's Newton step toward the pivot
 _CYCLE = 10  # Newton steps after which half of them are halved, so that ruptures do not alternate
 _ALONE = 4  # first steps in which a film that changes more is corrected with the shaft held
@@ -191,7 +190,7 @@ class Assembly:
                 break
             if not math.isfinite(change):
                 break
-            if change < _QUADRATIC and not damped:
+            if change < QUADRATIC and not damped:
                 residual, level = imbalance(self.members, self.length, state, force, free)
                 if is_small(residual, limits.tolerance, min(level, COARSEST)):
                     return replace(state, converged=True, iterations=iteration, residual=residual)
@@ -223,7 +222,7 @@ class Assembly:
             if member.film.gap.gaps(member.place(own, state.position)).min() < _PRESSED:
                 return state, math.nan
         change = max(_change(m.film, s) for m, s in zip(self.members, state.members))
-        limited, whole = min(1.0, _STEP_LIMIT / max(change, 1e-300)), share
+        limited, whole = min(1.0, STEP_LIMIT / max(change, 1e-300)), share
         if limited < 1.0 and alone:
             limited = 0.0
         step = np.zeros(BODY)

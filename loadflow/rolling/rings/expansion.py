@@ -16,8 +16,8 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields, check_one_of
-from loadflow.numerics.shown import Shown, cases_in_words
-from loadflow.quantities import Quantity
+from loadflow.numerics.shown import Shown
+from loadflow.quantities import Quantity, load_cases
 from loadflow.rolling.contacts import Array
 from loadflow.rolling.raceways import BallRaceways
 
@@ -131,7 +131,7 @@ class ExpansionResult(Shown):
 
     def __repr__(self) -> str:
         cases = np.size(self.force)
-        return f"<ExpansionResult of {cases_in_words(cases)}, residual {np.max(self.residual):.1e}>"
+        return f"<ExpansionResult of {load_cases(cases)}, residual {np.max(self.residual):.1e}>"
 
 
 _SHOWN = {
