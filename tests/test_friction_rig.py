@@ -115,6 +115,18 @@ def test_at_rest_the_asperities_of_a_journal_bearing_rub_under_the_weights(capsy
     assert row["torque"] == pytest.approx(row["pin asperities"] + row["seal"], rel=1e-3)
 
 
+def test_each_part_stands_under_its_own_name_at_rest_and_in_motion(capsys):
+    with pytest.raises(SystemExit):
+        main(["friction-rig", "--speed-rpm=0", "--speed-rpm=1000", "--arrangement=journal"])
+    heads, rest, fast = capsys.readouterr().out.splitlines()[-3:]
+    assert "pin asperities" in heads
+    assert "pin film" in heads
+    assert rest.split()[-1] == "–"  # the last, which only the motion has
+    assert fast.split()[-1] != "–"
+    with pytest.raises(InputError, match="at rest there are no films"):
+        rig_torques(CrankRig(), (0.0,), "film")
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

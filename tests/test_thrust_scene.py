@@ -6,6 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 from synthetic import cube_file
 
 from loadflow.cli import main
@@ -26,6 +27,7 @@ from loadflow.running.runner import run
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
+from loadflow.scene.thrust import Thrust
 from loadflow.scene.unused import unused_keys
 
 FILM = Film(Lubricant(0.2), Guembel(), inlet=None, grid=(20, 10), edge_pressure=1e5)
@@ -292,8 +294,14 @@ def test_a_collar_that_says_its_cells_says_them_for_all_of_its_section():
     assert fine.thrust.bearings["M"].grid == scene().thrust.grid == (20, 10)
     assert make_scene(tomllib.loads(fine.to_toml())) == fine
     two = {"N": COLLAR | {"grid": [16, 8]}, "N2": COLLAR | {"grid": [40, 20]}}
-    with pytest.raises(InputError, match="collars share one grid"):
+    with pytest.raises(InputError, match=r"bearings\.N2\.grid = .*collars share one grid"):
         make_scene({"name": "x", "shaft": SHAFT, "bearings": two})
+    with pytest.raises(InputError, match=r"bearings\.N2\.1\.grid"):
+        scene(grid=40)
+    stated = {"bearings": {"N2": COLLAR | {"grid": [16, 8]}}}
+    assert Thrust.model_validate(stated).collars["N2"].grid == (16, 8)
+    with pytest.raises(ValidationError, match="collars share one grid"):
+        Thrust.model_validate(stated | {"grid": [40, 20]})
 
 
 def test_a_plan_refines_the_cells_of_a_curve_where_the_accuracy_asks_for_it(tmp_path):

@@ -130,7 +130,7 @@ def lifetime(
         HEADS,
         as_dict,
         share_warnings,
-        summary_rows,
+        summary_table,
         write_lifetime,
     )
     from loadflow.turbines import load_turbine
@@ -163,7 +163,10 @@ def lifetime(
         bearings = [as_dict(life, options) for life in lives]
         print_json({"page": str(page), "bearings": bearings, "warnings": warnings})
         return
-    print_rows(HEADS, [row for life in lives for row in summary_rows(life, options)])
+    told = summary_table(lives, options)
+    print_rows(HEADS, told.rows)
+    if told.note:
+        out.print(told.note, soft_wrap=True)
     for warning in warnings:
         out.print(f"warning  {warning}", soft_wrap=True)
     out.print(f"page     {page}", soft_wrap=True)

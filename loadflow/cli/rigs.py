@@ -80,8 +80,9 @@ def friction_rig(
         print_json({"units": {"rpm": "1/min", "off": "1", "others": "N m"}, "rows": rows})
         return
     names = {"rpm": "1/min", "torque": "torque, N m", "measured": "measured, N m"}
-    heads = [names.get(name, name) for name in rows[0]]
-    print_rows(tuple(heads), [[_cell(*one) for one in row.items()] for row in rows])
+    parts = list(dict.fromkeys(name for row in rows for name in row))  # those at rest are others
+    cells = [[_cell(name, row[name]) if name in row else "–" for name in parts] for row in rows]
+    print_rows(tuple(names.get(name, name) for name in parts), cells)
 
 
 def _cell(name: str, value: float) -> str:

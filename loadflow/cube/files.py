@@ -11,7 +11,7 @@ import xarray as xr
 from loadflow.cube.build import make_cube
 from loadflow.cube.hdf5_image import image
 from loadflow.cube.parts import Cube
-from loadflow.cube.schema import CUBE, FILE_ATTRIBUTES
+from loadflow.cube.schema import CUBE, FILE_ATTRIBUTES, version_taken
 from loadflow.cube.trust import check_hdf5
 from loadflow.errors import InputError
 from loadflow.storage import check_room, written_whole
@@ -168,8 +168,7 @@ def _open(path: Path, chunks: Any) -> Cube:
     check_hdf5(path)
     try:
         tree = xr.open_datatree(path, engine=ENGINE, chunks=chunks)
-        version = tree.attrs.get(CUBE.key, 1)
-        CUBE.check(version, str(path))
+        CUBE.check(tree.attrs.get(CUBE.key, 1), str(path))
         cube = (
             tree.map_over_datasets(_labels_loaded)
             if tree.children
@@ -179,8 +178,7 @@ def _open(path: Path, chunks: Any) -> Cube:
         raise
     except Exception as error:  # h5py and h5netcdf raise of nearly every kind on damaged files
         raise InputError(f"{path}: cannot be read as HDF5; a part is damaged ({error})") from error
-    for name in FILE_ATTRIBUTES:
-        cube.attrs.pop(name, None)
+    version = version_taken(cube.attrs)
     if isinstance(cube, xr.DataTree):
         return cube.map_over_datasets(lambda part: CUBE.upgrade(part, version, str(path)))
     return CUBE.upgrade(cube, version, str(path))

@@ -15,7 +15,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.parts import Cube
-from loadflow.cube.schema import CUBE, FILE_ATTRIBUTES
+from loadflow.cube.schema import CUBE, version_taken
 from loadflow.errors import InputError
 
 
@@ -161,8 +161,7 @@ def read_whole(path: Path) -> Cube:
     """
     with _opened(path) as file:
         groups = dict(_groups("/", file))
-    said = {name: groups["/"].attrs.pop(name, None) for name in FILE_ATTRIBUTES}
-    version = 1 if said[CUBE.key] is None else said[CUBE.key]
+    version = version_taken(groups["/"].attrs)
     groups = {name: CUBE.upgrade(part, version, str(path)) for name, part in groups.items()}
     return groups["/"] if len(groups) == 1 else xr.DataTree.from_dict(groups)
 

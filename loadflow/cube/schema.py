@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from loadflow.schemas import Schema
 
@@ -106,6 +106,14 @@ FILE_ATTRIBUTES: Mapping[str, str | int] = MappingProxyType(
     {"Conventions": "CF-1.11", CUBE.key: CUBE.version}
 )
 """What a file of a cube says of itself, beside the attributes of the cube."""
+
+
+def version_taken(attributes: MutableMapping[Any, Any]) -> Any:
+    """Take what a file says of itself off its attributes; return the version of its form."""
+    version = attributes.get(CUBE.key, 1)
+    for name in FILE_ATTRIBUTES:
+        attributes.pop(name, None)
+    return version
 
 
 def case_name(dlc: str, wind_speed: float, seed: int) -> str:

@@ -67,11 +67,12 @@ def _peaks(table: xr.Dataset) -> xr.DataArray | None:
 
 
 def _ranges(table: xr.Dataset) -> xr.DataArray | None:
-    """Damage-equivalent load of the component that does more damage in each bearing."""
+    """Damage-equivalent load of the component that does more damage in each bearing's life."""
     if (force := _across(table)) is None:
         return None
     found = force.sel(statistic="del")
-    harder = (found**SLOPE).sum("case").argmax("axis")
+    weight = xr.DataArray(_weights(table), dims="case")
+    harder = (found**SLOPE * weight).sum("case").argmax("axis")
     return found.isel(axis=harder).assign_attrs(force.attrs)
 
 
@@ -88,7 +89,8 @@ class _Source:
 
     `variable` names it in the table, or finds it there; without `read` it is the load that is
     exceeded once in 50 years, with the interval of its law. `name` is what it is called, if not as
-    the quantity whose error by models it has.
+    the quantity whose error by models it has; `measured` whether that error, and the band by
+    tolerances, are its own.
     """
 
     result: str
@@ -97,6 +99,7 @@ class _Source:
     variable: str | Callable[[xr.Dataset], xr.DataArray | None]
     read: Statistic | None
     name: str = ""
+    measured: bool = True
 
     def found(self, table: xr.Dataset) -> xr.DataArray | None:
         """Its values by bearing and case; None where the table has none."""
@@ -118,13 +121,29 @@ _SOURCES = (
     _Source("rolling.loads", "maximum force", "rolling", "bearing_force", _largest),
     _Source("rolling.loads", "maximum pressure", "rolling", "bearing_pressure", _largest),
     _Source("rolling.life", "life", "rolling", "bearing_life", _life),
-    _Source("rolling.life", "life", "rolling", "bearing_modified_life", _life, "modified life"),
+    _Source(  # a_ISO follows the load, too: its error is larger than that of the basic life
+        "rolling.life", "life", "rolling", "bearing_modified_life", _life, "modified life", False
+    ),
     _Source("rolling.friction", "friction power", "friction", "mean_friction_power", _mean),
     _Source("rolling.friction", "film parameter", "friction", "median_film_parameter", _smallest),
     _Source("rolling.friction", "slip", "friction", "mean_slip", _mean),
     _Source("loads.statistics", "bearing load max", "statistics", _peaks, _largest),
-    _Source("loads.statistics", "bearing force DEL", "statistics", _ranges, _damage_equivalent),
-    _Source("loads.statistics", "bearing load max", "statistics", _peaks, None, "50-year load"),
+    _Source(
+        "loads.statistics",
+        "bearing force DEL",
+        "statistics",
+        _ranges,
+        _damage_equivalent,
+        f"bearing force DEL, m = {SLOPE:g}",
+    ),
+    _Source(
+        "loads.statistics",
+        "bearing load max",
+        "statistics",
+        _peaks,
+        None,
+        "50-year load across the shaft",
+    ),
 )
 
 
@@ -238,12 +257,13 @@ def _of(
     known: Estimates,
 ) -> Iterator[Answer]:
     table = _shared(tables, source)
-    groups = Groups.of(table)
-    picks = drawn(groups) if max(groups.sizes, default=0) > 1 else None  # one seed tells nothing
     if (rows := source.found(table)) is None:
         return
+    groups = Groups.of(table)
+    several = max(groups.sizes, default=0) > 1 and source.read is not None
+    picks = drawn(groups) if several else None  # one seed tells nothing
     found = rows.transpose("bearing", "case")
-    error = errors.get(source.result, {}).get(source.quantity)
+    error = errors.get(source.result, {}).get(source.quantity) if source.measured else None
     missing = _left_out(source, scene, known)
     for bearing in found["bearing"].values:
         values = found.sel(bearing=bearing).values.astype(float)
@@ -263,15 +283,23 @@ def _of(
             high,
             float(error) if isinstance(error, (int, float)) else None,
             missing,
-            band_of(tables, source.stage, str(bearing), source.quantity),
+            band_of(tables, source.stage, str(bearing), source.quantity)
+            if source.measured
+            else None,
         )
 
 
 def _whole(
     source: _Source, table: xr.Dataset, groups: Groups, values: Floats, picks: Picks | None
 ) -> tuple[float, float, float] | None:
-    """An answer of all cases and its interval; None where there are too few seeds for a law."""
+    """An answer of all cases and its interval; None where there are too few seeds for a law.
+
+    A law needs three seeds of every wind speed: without one of them the largest load may be left
+    out, and the level lie below it.
+    """
     if source.read is None:
+        if min(groups.sizes, default=0) < 3:
+            return None
         length = float(np.median(table["length"].values)) if "length" in table.coords else 600.0
         weight = _weights(table)
         level = return_level(groups, weight / weight.sum(), values, length)

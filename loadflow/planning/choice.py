@@ -269,7 +269,7 @@ class _Choosing:
         return np.array([np.nan if share is None else share for share in found])
 
     def _part(
-        self, scene: Scene, answer: tuple[str, str], link: Link, forking: tuple[str, ...] = ()
+        self, scene: Scene, answer: tuple[str, str], link: Link, forking: tuple[str, ...]
     ) -> float | None:
         """What a link brings to an answer; candidates share their sections, and so most of it."""
         sections = dict.fromkeys((models()[link.model].section, *forking))

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.stats import lmoment
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
@@ -142,6 +141,8 @@ def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
 
     By L-moments [Hosking and Wallis 1997].
     """
+    from scipy.stats import lmoment  # half a second, of which runs without an extreme need nothing
+
     first, second = lmoment(x, order=[1, 2], axis=-1)
     scale = second / np.log(2.0)
     return first - np.euler_gamma * scale, scale

@@ -14,7 +14,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.stats import lmoment
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
@@ -294,6 +293,8 @@ def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:
 
 def _pareto(excess: Floats) -> tuple[Floats, Floats]:
     """Scale and shape of a generalised Pareto distribution by L-moments along the last axis."""
+    from scipy.stats import lmoment
+
     first, second = lmoment(excess, order=[1, 2], axis=-1)
     shape = 2.0 - first / np.maximum(second, np.finfo(float).tiny)
     return first * (1.0 - shape), shape

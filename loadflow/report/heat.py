@@ -1,4 +1,4 @@
-"""Counts in classes of two quantities as coloured cells, written as SVG without a drawing library.
+"""Counts in classes of two quantities as coloured cells, as SVG without a figure of matplotlib.
 
 A page holds many of them: each takes a hundredth of the time that a figure of matplotlib takes.
 """

@@ -63,6 +63,8 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
         "shaft": {"two_point": {}, "moment": {}},
     }
     sizes = make_scene(shell).candidates
+    own = [_bearings(one) for one in found.values()]  # as sized, too: these stand first
+    sizes = dict(sorted(sizes.items(), key=lambda item: _bearings(item[1]) not in own))
     built = [_bearings(one) for one in sizes.values()]
     found = {name: one for name, one in found.items() if _bearings(one) not in built}
     places = set(scene.shaft.bearings)
@@ -82,10 +84,6 @@ def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
 def _bearings(one: Candidate) -> tuple[Any, ...]:
     """What a candidate is, without what it is called."""
     return one.journal, one.rolling, one.thrust, one.tolerances
-
-
-ROOMS = ("journal", "rolling", "thrust")
-"""Sections of a scene that say which bearings there are."""
 
 
 def _of_places(scene: Scene, places: list[str]) -> Tolerances:
@@ -130,7 +128,7 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     if not base.reduction.changed:
         update["reduction"] = base.reduction.model_copy(update=fewer)
     # a bearing of the scene in a room that the candidate has none of is none of the candidate's
-    others = [room for room in ROOMS if getattr(candidate, room) is None]
+    others = [room for room in ("journal", "rolling", "thrust") if getattr(candidate, room) is None]
     update |= {room: type(getattr(base, room))() for room in others}
     found = base.model_copy(update=update | {"results": results})
     found.model_fields_set.difference_update(others)

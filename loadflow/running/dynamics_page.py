@@ -6,12 +6,13 @@ import numpy as np
 import xarray as xr
 
 from loadflow.report import Section, Table
+from loadflow.stages.frames import FILM_AXES
 
 
 def dynamics_section(data: xr.Dataset) -> Section:
     """Tabulate stiffness and damping of the bearings, and the modes of each shaft line."""
     cases = [str(name) for name in data["case"].values]
-    axes = [*zip(data["dof"].values[:2], "zy", (-1, 1))]  # the first axis of bearings is −z
+    axes = [(dof, *axis) for dof, axis in zip(data["dof"].values, FILM_AXES)]
     names = [(a, b, one * other) for a, _, one in axes for b, _, other in axes]
     rows = [
         [f"{case} {bearing}"]

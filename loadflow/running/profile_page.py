@@ -36,9 +36,7 @@ def profile_section(folder: Path) -> Iterator[Section]:
     """A section of the page; none where the run was made without a profile."""
     tables = [*profile_tables(folder)]
     if tables:
-        text = (
-            "Of the last start of the run, up to this page. Stages that were done before count 0."
-        )
+        text = "Of the last start of the run. Stages that were done before count 0."
         yield Section("Where the time went", text, tables=tables)
 
 

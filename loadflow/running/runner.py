@@ -233,6 +233,8 @@ def _run(
         log.info("not accurate enough, better models of: %s", ", ".join(higher))
         refined = [*refined, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
+    if not profile:
+        (folder / FILE).unlink(missing_ok=True)  # that of an earlier start
     if report:
         begun = time.perf_counter()
         say("report", 0, 1)

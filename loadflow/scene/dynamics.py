@@ -53,6 +53,11 @@ class Dynamics(Section, BaseModel):
     time_constant: Positive = 1e-5
 
     @property
+    def rolling_follows(self) -> bool:
+        """Whether rolling bearings have other K or C at another frequency of vibration."""
+        return self.contact_model != "proportional"
+
+    @property
     def whirl_of_tables(self) -> float:
         """Frequency of vibration over the speed to which the tables belong."""
         return 1.0 if self.whirl == "own" else self.whirl

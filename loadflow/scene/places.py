@@ -181,11 +181,12 @@ def _add_axial(found: Sections, place: str, location: Location, data: dict[str, 
     told = ".".join(map(str, location))
     if place in found.thrust["bearings"]:
         raise ValueError(f"{told}: a second bearing of its kind; write it under [candidates.NAME]")
-    if data["kind"] == COLLAR and "rung" in data:  # one of all collars
-        rung = data.pop("rung")
-        if found.thrust.setdefault("rung", rung) != rung:
-            raise ValueError(f"{told}.rung = {rung!r}: collars share one rung; keep one")
-        found.origins["thrust", "rung"] = (*location, "rung")
+    for name in ("rung", "grid") if data["kind"] == COLLAR else ():  # of all collars
+        if name in data:
+            value = data.pop(name)
+            if found.thrust.setdefault(name, value) != value:
+                raise ValueError(f"{told}.{name} = {value!r}: collars share one {name}; keep one")
+            found.origins["thrust", name] = (*location, name)
     found.thrust["bearings"][place] = data
     found.origins["thrust", "bearings", place] = location
 

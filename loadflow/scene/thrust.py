@@ -371,34 +371,15 @@ class Thrust(Section, BaseModel):
     rung: Literal["grid", "curve"] = "grid"
     grid: Cells = (20, 10)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _one_grid(cls, data: Any) -> Any:
-        parts = data.get("bearings") if isinstance(data, Mapping) else None
-        if not isinstance(parts, Mapping):
-            return data
-        own = {
-            place: one["grid"]
-            for place, one in parts.items()
-            if isinstance(one, Mapping) and one.get("kind") == "thrust" and "grid" in one
-        }
-        if not own:
-            return data
-        (first, grid), *others = own.items()
-        for place, other in others:
-            if list(other) != list(grid):
-                raise ValueError(
-                    f"bearings.{place}.grid = {other!r}: collars share one grid, and {first} has "
-                    f"{grid!r}; keep one"
-                )
-        bare = {
-            place: {k: v for k, v in one.items() if k != "grid"} if place in own else one
-            for place, one in parts.items()
-        }
-        return {**data, "bearings": bare, "grid": grid}
-
     @model_validator(mode="after")
     def _collars_on_it(self) -> Self:
+        own = {one.grid for one in self.collars.values() if "grid" in one.model_fields_set}
+        stated = own | ({self.grid} if "grid" in self.model_fields_set else set())
+        if len(stated) > 1:
+            told = " and ".join(str(list(cells)) for cells in sorted(stated))
+            raise ValueError(f"grid: collars share one grid, got {told}; keep one")
+        for cells in own:
+            object.__setattr__(self, "grid", cells)  # as stated at a collar
         self.bearings.update({name: one.on_cells(self.grid) for name, one in self.collars.items()})
         return self
 

@@ -406,7 +406,7 @@ def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:
     else:
         for key in ("contact_model", "loss", "time_constant"):
             yield key, f"the result {OF_ROLLING} is not wanted"
-    followed = OF_ROLLING in scene.results and scene.dynamics.contact_model != "proportional"
+    followed = OF_ROLLING in scene.results and scene.dynamics.rolling_follows
     pads = (scene.journal.at(place).geometry.has_pads for place in films)
     if not followed and not any(pads):
         yield "whirl", "none of these bearings has another K or C at another frequency"

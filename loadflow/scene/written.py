@@ -230,8 +230,8 @@ def _with_files(bearing: Any, path: Callable[[Any], Any]) -> Any:
     found = dict(bearing)
     for part, key in _FILES:
         table = found.get(part)
-        if isinstance(table, dict) and key in table:
-            found[part] = table | {key: path(table[key])}
+        if table is not None:
+            found[part] = _with_path(table, path, key)
     return found
 
 
@@ -251,7 +251,7 @@ def _on_frames(suspension: Any, path: Callable[[Any], Any]) -> Any:
     return suspension | {"beam": found}
 
 
-def _with_path(table: Any, path: Callable[[Any], Any]) -> Any:
-    if not isinstance(table, dict) or "file" not in table:
+def _with_path(table: Any, path: Callable[[Any], Any], key: str = "file") -> Any:
+    if not isinstance(table, dict) or key not in table:
         return table
-    return table | {"file": path(table["file"])}
+    return table | {key: path(table[key])}

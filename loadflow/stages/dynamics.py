@@ -71,8 +71,10 @@ def dynamics(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
         if scene.journal.at(name).geometry.has_pads:
             follow[name] = partial(_at_frequency, film)
     for name, part in _rolling_of(scene).items():
-        follow[name] = _rolling(scene, part, mean)
-        tables[name] = _over(follow[name], speeds, whirl).assign(_loads(mean, name))
+        at = _rolling(scene, part, mean)
+        tables[name] = _over(at, speeds, whirl).assign(_loads(mean, name))
+        if scene.dynamics.rolling_follows:
+            follow[name] = at
     bearings = _Bearings(tables, follow, whirl)
     found = {name: table.assign_attrs(mean_speed=speed) for name, table in tables.items()}
     for name, concept in scene.shaft.suspensions.items():

@@ -12,6 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 
+FILM_AXES = (("z", -1.0), ("y", 1.0))
+"""Axis of the cube, and sign, of the first and the second axis of a film."""
+
+
 def to_film(vector: Floats) -> Floats:
     """Turn (..., x, y, z) of the cube into the plane of the film: (first, second) = (−z, +y).
 

@@ -13,7 +13,7 @@ from loadflow.errors import InputError
 from loadflow.numerics.shown import FEW
 from loadflow.reduction import damage_equivalent_load
 from loadflow.stages.statistics import STATISTICS, describe
-from loadflow.studies.channels import channel, choose_channels
+from loadflow.studies.channels import channel, channel_names, choose_channels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -52,7 +52,8 @@ class LoadflowAccessor:
         self._cube = cube
 
     def __repr__(self) -> str:
-        names = self.channels()
+        _, first = next(iter_cases(self._cube))  # by its names alone: no series is read
+        names = [name for parts in channel_names(first).values() for name in parts]
         few = ", ".join(names[:FEW]) + (", …" if len(names) > FEW else "")
         return f"<loadflow: {few}; .statistics(), .del_(m=4), .spectrum(), .plot()>"
 
@@ -86,6 +87,7 @@ class LoadflowAccessor:
             ("statistic",),
             {"statistic": list(STATISTICS)},
             "statistics of the series",
+            "",
         )
 
     def del_(
@@ -130,8 +132,8 @@ class LoadflowAccessor:
         Returns
         -------
         xarray.DataArray
-            Over ``case``, ``channel`` and ``frequency``, Hz; in the squared units of the coordinate
-            ``units`` per Hz.
+            Over ``case``, ``channel`` and ``frequency``, Hz; in the units of the coordinate
+            ``units``.
         """
         from scipy.signal import welch
 
@@ -187,7 +189,8 @@ class LoadflowAccessor:
     ) -> xr.DataArray:
         """What is found of every channel of every case, as one array.
 
-        Its units are the `unit` of that of the channels, where they have one in common.
+        The coordinate ``units`` has `unit` of that of each channel; without one they are those of
+        the series, but not of every value.
         """
         names = self.channels(*wanted)
         cases, rows, units = [], [], [""] * len(names)
@@ -196,7 +199,8 @@ class LoadflowAccessor:
             units = [str(part.attrs.get("units", "1")) for part in parts]
             rows.append([work(part) for part in parts])
             cases.append(case)
-        common = unit.format(units[0]) if len(set(units)) == 1 else "see coordinate units"
+        units = [unit.format(one) for one in units] if unit else units
+        common = units[0] if unit and len(set(units)) == 1 else "see coordinate units"
         return xr.DataArray(
             np.array(rows),
             {"case": cases, "channel": names, "units": ("channel", units), **coords},

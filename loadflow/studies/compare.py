@@ -19,13 +19,13 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
 from loadflow.studies.compare_factor import Margin
-from loadflow.studies.compare_friction import COLLAR, error_together, rolling_losses
+from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import (
     damage_per_hour,
     margin_of,
     row_shares,
 )
-from loadflow.studies.compare_pads import clearance_used, with_wide_bore
+from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
     Comparison,
@@ -171,6 +171,13 @@ def _numbers(
     )  # fmt: skip
 
 
+def in_wide_bore(ratio: Number, scene: Scene) -> Number:
+    """An eccentricity ratio; above 1 in lobes or pads it says why there is a film none the less."""
+    shaped = ratio.value > 1 and scene.journal.at(ratio.place).geometry.shape.segments
+    said = "over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more"
+    return replace(ratio, note=said) if shaped else ratio
+
+
 def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
     table = run.tables["journal"]
     groups = Groups.of(table)
@@ -180,8 +187,8 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
     ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
-    ratio = with_wide_bore(_against(ratio, verdicts, "eccentricity ratio ε", 1.0))
-    yield "eccentricity_ratio", ratio
+    ratio = _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
+    yield "eccentricity_ratio", in_wide_bore(ratio, run.scene)
     name, model = "largest_pressure", "maximum pressure"
     pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
@@ -314,9 +321,15 @@ def _lost(
         yield "energy", Number(math.nan, "MWh", note="no model of friction")
         return
     share, groups = _shares(run, table), Groups.of(table)
+    result = next(
+        (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
+    )
+    parts = {result: power}
     if "thrust" in run.tables and table is not run.tables["thrust"]:
         beside = run.tables["thrust"]["lost_power"].drop_vars(("dlc",), errors="ignore")
-        names = [f"{name}{COLLAR}" for name in beside["bearing"].values.tolist()]
+        parts["thrust.film"] = beside
+        # a collar beside a journal bearing has its name
+        names = [f"{name}, thrust" for name in beside["bearing"].values.tolist()]
         power = xr.concat(
             [power, beside.assign_coords(bearing=names)],
             "bearing",
@@ -325,11 +338,9 @@ def _lost(
         )
     own = power.sel(case=table["case"].values).fillna(0.0)
     loss = _mean(run, own.sum("bearing").values / 1e3, share, groups, "kW", note)
-    result = next(
-        (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
-    )
-    errors = (_error(run, one, "friction power") for one in (result, "thrust.film"))
-    error = error_together(own, share, *errors)
+    often = xr.DataArray(share, {"case": table["case"].values}, ["case"])
+    lost = {name: float((part.fillna(0.0) * often).sum()) for name, part in parts.items()}
+    error = error_together(lost, {name: _error(run, name, "friction power") for name in parts})
     yield "friction", replace(loss, error=error)
     if "mean_supply_power" in table:
         supply = table["mean_supply_power"].fillna(0.0)

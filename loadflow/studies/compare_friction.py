@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,9 +19,6 @@ from loadflow.studies.compare_margins import looked_at, solved
 
 _SLOW = 0.1  # share of the samples that counts as low speed
 _Means = dict[tuple[str, str], float]  # by load case and bearing
-
-COLLAR = ", thrust"
-"""Behind the name of a thrust collar that stands beside a journal bearing of that name."""
 
 TORQUES = {"": "friction_torque"} | {key: name for key, (name, _) in CATALOGUES.items()}
 """Quantity of a comparison by catalogue; the first is our own."""
@@ -113,22 +110,16 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
     return Losses(table, of_all, medians[place], place, case, time, slow, by_case)
 
 
-def error_together(power: xr.DataArray, share: np.ndarray, error: float, collar: float) -> float:
-    """Error by models of the losses of all bearings, each with that of its room by what it loses.
+def error_together(lost: Mapping[str, float], errors: Mapping[str, float]) -> float:
+    """Error by models of all losses, each result's with what it loses; NaN: not measured.
 
     Parameters
     ----------
-    power : xarray.DataArray
-        Losses over ``case`` and ``bearing``, W; names of collars end in `COLLAR`.
-    share : ndarray, shape (case,)
-        Share of the lifetime of each case.
-    error, collar : float
-        Of the losses of bearings and of collars beside them, as shares; NaN: not measured.
+    lost, errors : mapping of str to float
+        By result: losses, W, and their error as a share.
     """
-    lost = (power * xr.DataArray(share, dims="case")).sum("case")
-    beside = [str(name).endswith(COLLAR) for name in power["bearing"].values]
-    own, theirs = (float(lost.values[np.equal(beside, which)].sum()) for which in (False, True))
-    return (error * own + collar * theirs) / (own + theirs) if theirs else error
+    some = {name: loss for name, loss in lost.items() if loss > 0} or dict.fromkeys(lost, 1.0)
+    return sum(loss * errors[name] for name, loss in some.items()) / sum(some.values())
 
 
 def _table(means: _Means, cases: Sequence[str], places: Sequence[str]) -> xr.DataArray:

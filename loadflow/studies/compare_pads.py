@@ -89,17 +89,3 @@ def value_of(
         return float(getattr(thinner.solve(load * force, load * moment, speed), field))
     except SolverError:
         return math.nan
-
-
-def with_wide_bore(ratio: Number) -> Number:
-    """An eccentricity ratio; above 1 it says why there is a film none the less.
-
-    Examples
-    --------
-    >>> with_wide_bore(Number(1.1)).note
-    'over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more'
-    """
-    if not ratio.value > 1:
-        return ratio
-    note = "over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more"
-    return replace(ratio, note=note)

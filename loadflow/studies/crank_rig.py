@@ -186,20 +186,24 @@ class CrankRig:
         Parameters
         ----------
         rpm : float
-            Speed of the shaft, 1/min, > 0.
+            Speed of the shaft, 1/min; 0: `torque_at_rest`.
         stage : {"coulomb", "film"}
             Von Hollen's model stage 1 or 2.
 
         Raises
         ------
         InputError
-            A speed that is not positive, or an unknown stage.
+            A negative speed, an unknown stage, or stage 2 at rest.
         SolverError
             A motion or an orbit that is not found.
         """
         check_one_of("stage", stage, ("coulomb", "film"))
-        if not (math.isfinite(rpm) and rpm > 0):
-            raise InputError(f"rpm = {rpm}: must be > 0")
+        if not (math.isfinite(rpm) and rpm >= 0):
+            raise InputError(f"rpm = {rpm}: must be ≥ 0")
+        if rpm == 0.0:
+            if stage == "film":
+                raise InputError('stage = "film": at rest there are no films; "coulomb"')
+            return self.torque_at_rest()
         found = self._mains(rpm, stage) + self._seal(rpm)
         if self.drive is None:
             return found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,8 +45,12 @@ def summary_table(lives: Sequence[BearingLifetime], options: LifetimeOptions) ->
     """What matters of some lifetimes; forces that a bearing never carries are said below."""
     rows = [row for life in lives for row in summary_rows(life, options)]
     none = (f"{name} of bearing {life.bearing}" for life in lives for name in _unloaded(life))
-    told = ", ".join(none)
-    return Table("", list(HEADS), rows, note=f"Zero in all cases: {told}." if told else "")
+    return Table("", list(HEADS), rows, note=_zero(none))
+
+
+def _zero(names: Iterable[str]) -> str:
+    told = ", ".join(names)
+    return f"Zero in all cases: {told}." if told else ""
 
 
 def _loaded(life: BearingLifetime) -> dict[int, str]:
@@ -164,8 +168,7 @@ def case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
         [case, f"{share:.4%}", *(f"{v / 1e3:.4g}" for v in known[..., k].ravel())]
         for k, (case, share) in enumerate(zip(life.cases, life.shares.tolist()))
     ]
-    zero = ", ".join(_unloaded(life))
-    note = f"Zero in all cases: {zero}." if zero else ""
+    note = _zero(_unloaded(life))
     return Table("Damage-equivalent loads of the cases", heads, rows, note=note)
 
 

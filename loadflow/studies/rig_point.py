@@ -62,7 +62,7 @@ def rig_torques(
         raise InputError("no speed: give some, or a file that was measured")
     rows = []
     for rpm in speeds or known:
-        found = rig.torque_at_rest() if rpm == 0.0 else rig.friction_torque(rpm, stage)
+        found = rig.friction_torque(rpm, stage)
         row = {"rpm": rpm, "torque": found.torque}
         if known:
             row |= {"measured": known[rpm], "off": found.torque / known[rpm] - 1}

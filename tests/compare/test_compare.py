@@ -33,9 +33,10 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
+from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_pads import clearance_used, with_wide_bore
+from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
 from loadflow.studies.compare_risks import events, wear
@@ -120,14 +121,13 @@ def test_our_friction_torque_stands_beside_that_of_catalogues(cube, tmp_path, fo
     assert film.note == "n/a: no rolling elements"
 
 
-def test_the_error_of_journals_with_a_collar_is_that_of_each_by_what_it_loses():
-    watts = [[1e3, 3e3], [2e3, 4e3]]
-    power = xr.DataArray(watts, {"bearing": ["N2", "N2, thrust"]}, ("case", "bearing"))
-    share = np.array([0.5, 0.5])
-    mean = (0.02 * 1.5 + 0.1 * 3.5) / 5.0
-    assert error_together(power, share, 0.02, 0.1) == pytest.approx(mean)
-    assert math.isnan(error_together(power, share, 0.02, math.nan))
-    assert error_together(power[:, :1], share, 0.02, math.nan) == 0.02
+def test_losses_of_collars_have_the_error_of_their_films():
+    errors = {"journal.film": 0.02, "thrust.film": 0.1}
+    assert error_together({"journal.film": 3e3, "thrust.film": 1e3}, errors) == pytest.approx(0.04)
+    assert error_together({"journal.film": 3e3, "thrust.film": 0.0}, errors) == 0.02
+    unknown = errors | {"thrust.film": math.nan}
+    assert math.isnan(error_together({"journal.film": 3e3, "thrust.film": 1e3}, unknown))
+    assert error_together({"journal.film": 3e3}, errors) == 0.02
 
 
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
@@ -199,8 +199,16 @@ def test_what_a_film_leaves_of_the_clearance_of_cones_is_their_eccentricity_rati
 
 
 def test_an_eccentricity_ratio_above_1_says_why_there_is_a_film_and_others_nothing():
-    assert "preloaded lobes and pads leave more" in with_wide_bore(Number(1.11)).note
-    assert with_wide_bore(Number(0.9)).note == ""
+    geometry = {"diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}
+    pads = {"shape": {"kind": "tilting pads", "count": 4, "arc": 1.2, "preload": 0.3}}
+    body = {"name": "bores", "shaft": {"two_point": {}}}
+    plain, shaped = (
+        make_scene(body | {"journal": {"bearings": ["N"], "geometry": geometry | shape}})
+        for shape in ({}, pads)
+    )
+    assert "preloaded lobes and pads" in in_wide_bore(Number(1.11, place="N"), shaped).note
+    assert in_wide_bore(Number(0.9, place="N"), shaped).note == ""
+    assert in_wide_bore(Number(1.11, place="N"), plain).note == ""
 
 
 def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(found):

@@ -301,6 +301,11 @@ def test_the_candidate_is_the_scene_s_own_bearings_or_the_first(cube):
     for kind in ("journal", "rolling"):
         own = make_scene({"loads": {"files": [str(cube)]}, "shaft": shaft, kind: {}})
         assert chosen_candidate(own)[0] == f"own-{kind}"
+    sized = make_scene({
+        "loads": {"files": [str(cube)]}, "shaft": shaft,
+        "bearings": ["journal-thrust", "two-spherical"],
+    })  # fmt: skip
+    assert chosen_candidate(sized)[0] == "journal-thrust"  # not the first that the package has
     wrong = first.model_copy(update={"design": Design(candidate="two-sferical")})
     with pytest.raises(InputError, match=r"did you mean two-spherical\?"):
         chosen_candidate(wrong)

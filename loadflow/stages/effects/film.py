@@ -13,7 +13,7 @@ from loadflow.scene.scene import Scene
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.effect import Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
-from loadflow.stages.effects.film_sizes import largest, worst
+from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
 from loadflow.stages.effects.situation import HOLLOW, Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.stage import with_settings
@@ -26,8 +26,8 @@ STEEL = 2.1e11  # Pa
 WALL = 0.1
 """Wall of the housing over the diameter of the bearing, where none is stated."""
 
-ROUGHNESS = 1.1e-6
-"""Of both surfaces of a journal bearing together, m: ground shaft, machined bearing."""
+ROUGHNESS = 1.1 / 3.8
+"""σ of both surfaces together over the sum of their R_z: a ground shaft, a machined bearing."""
 
 
 class _Keys(TypedDict):
@@ -131,13 +131,13 @@ def _tilt(at: Situation) -> Sizes:
         bent = moment * span / (3.0 * STEEL * section.inertia)
         slope = bent + np.hypot(*scene.journal.at(name).alignment)
         share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
-        worst = float(np.nanmax(share))
+        most = float(np.nanmax(share))
         found.append(
             {
-                "eccentricity ratio": 0.05 * worst,
-                "minimum film": worst,
-                "maximum pressure": 0.15 * worst,
-                "friction power": 0.04 * worst,
+                "eccentricity ratio": 0.05 * most,
+                "minimum film": most,
+                "maximum pressure": 0.15 * most,
+                "friction power": 0.04 * most,
             }
         )
     return largest(found)
@@ -205,14 +205,11 @@ SHELL = Effect(
 
 
 def _contact(at: Situation) -> Sizes:
-    """Share of the load that asperities take, by film / roughness: none above Λ = 4.
-
-    [Greenwood and Tripp 1970], in the fit (4 − Λ)^6.804 of the pressure, against all of it at 0.
-    """
+    """Share of the load that asperities take of surfaces as rough as the scene says."""
     found = []
-    for film in at.films.values():
-        parameter = np.nan_to_num(film.minimum_film / ROUGHNESS, nan=0.0)
-        share = float(np.max((np.clip(4.0 - parameter, 0.0, 4.0) / 4.0) ** 6.804))
+    for place, film in at.films.items():
+        rough = ROUGHNESS * at.scene.journal.at(place).contact_film
+        share = float(np.max(asperity_share(film.minimum_film, rough)))
         names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
         found.append(dict.fromkeys(names, share))
     return largest(found)

@@ -6,24 +6,25 @@ Calibrated on the collar of ``pipelines/dlc_1_1.toml`` from 4 to 24 m/s, films o
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
+from scipy.special import lambertw
 
 from loadflow.data import gains
-from loadflow.journal import DoubleThrustResult
+from loadflow.journal import DoubleThrustResult, Heat
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import ThrustCollar
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film import ROUGHNESS, THREE_P
 from loadflow.stages.effects.film_heat import HEAT_CAPACITY, MODEL_OIL
+from loadflow.stages.effects.film_sizes import asperity_share
 from loadflow.stages.effects.situation import BearingLoad, Situation
 from loadflow.tribology import lubricant
 
 CARRY_OVER = 0.8
 """Share of the hot oil of a pad that enters the next one; [Mitsui, Hori and Tanaka 1983]."""
-
-ENTERING = 313.15  # K, of the oil whose viscosity is stated
 
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
@@ -32,14 +33,15 @@ Of = Callable[[Situation, ThrustCollar, BearingLoad, int, DoubleThrustResult], S
 
 
 def _worst(of: Of) -> Callable[[Situation], Sizes]:
-    """The largest sizes over all collars and points; 1 where no film carries any of the loads."""
+    """The largest sizes over all collars and points; 1 where no film carries a load."""
 
     def indicator(at: Situation) -> Sizes:
         found = [
             of(at, at.scene.thrust.collars[place], at.bearings[place], k, film)
+            if film is not None
+            else dict.fromkeys(_QUANTITIES, 1.0)
             for place, films in at.collars.items()
             for k, film in enumerate(films)
-            if film is not None
         ]
         largest = {name: max((one[name] for one in found), default=1.0) for name in _QUANTITIES}
         return {name: min(size, 1.0) for name, size in largest.items()}
@@ -103,12 +105,11 @@ def _heat(
     oil, fed = lubricant(MODEL_OIL), collar.lubricant
     rise = hard.friction_power / (fed.density * HEAT_CAPACITY * hard.flow)
     kept = CARRY_OVER * (1.0 - float(np.sum(hard.side_flow)) / hard.flow)
-    steepness = float(oil.steepness(ENTERING))
-    cold = rise * (kept / (1.0 - kept) + 0.5)
-    warmer, thinner = 0.0, 1.0
-    for _ in range(50):  # power falls with the viscosity: the balance, from the cold film on
-        warmer = 0.5 * (warmer + cold * thinner**FRICTION)
-        thinner = float(np.exp(-steepness * warmer))
+    steepness = float(oil.steepness(Heat().inlet_temperature))
+    # the power falls with the viscosity: warmer = cold · exp(−FRICTION · steepness · warmer)
+    falls = FRICTION * steepness
+    warmer = float(lambertw(falls * rise * (kept / (1.0 - kept) + 0.5)).real) / falls
+    thinner = math.exp(-steepness * warmer)
     gain = gains()["thrust"]
     return {
         "minimum film": 1.0 - thinner ** gain["minimum film"],
@@ -159,11 +160,8 @@ TILT = _effect(
 def _contact(
     at: Situation, collar: ThrustCollar, load: BearingLoad, k: int, film: DoubleThrustResult
 ) -> Sizes:
-    """Share of the load that asperities take, by film / roughness: none above Λ = 4.
-
-    As that of journal films.
-    """
-    share = (max(4.0 - film.minimum_film / ROUGHNESS, 0.0) / 4.0) ** 6.804
+    """Share of the load that asperities take, as of journal films."""
+    share = float(asperity_share(film.minimum_film, ROUGHNESS * collar.contact_film))
     return dict.fromkeys(_QUANTITIES, share)
 
 
