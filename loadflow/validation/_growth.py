@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,19 @@ LOADS = ("mean radial force", "std of radial force", "std of moment")
 """Of the first main bearing, N, and of the rotor across the shaft, N m."""
 
 
+@cache
+def _winds_of(
+    name: str, wind_speed: float, seed: int, duration: float
+) -> tuple[Array, Array, Array]:
+    """Time, hub force and hub moment of a turbine in turbulence; suspensions share them."""
+    from loadflow.rotor import simulate
+
+    found = simulate(
+        name, wind_speed=wind_speed, seed=seed, duration=duration, dt=0.05, rung="tables"
+    )
+    return found["time"].values, found["hub_force"].values, found["hub_moment"].values
+
+
 def loads_of(
     name: str, wind_speed: float, seeds: Sequence[int], duration: float, shaft: str
 ) -> Array:
@@ -26,7 +40,6 @@ def loads_of(
 
     `shaft` is the turbine whose suspension carries its rotor.
     """
-    from loadflow.rotor import simulate
     from loadflow.scene.scene import make_scene
     from loadflow.shaft import bearing_loads
     from loadflow.turbines import load_turbine
@@ -34,13 +47,10 @@ def loads_of(
     concept = make_scene({"name": "growth", "turbine": {"name": shaft}}).shaft.concepts[0]
     tilt, rows = load_turbine(name).rotor.tilt, []
     for seed in seeds:
-        found = simulate(
-            name, wind_speed=wind_speed, seed=seed, duration=duration, dt=0.05, rung="tables"
-        )
-        hub = found["hub_force"].values, found["hub_moment"].values
-        carried = bearing_loads(concept, *hub, tilt=tilt, time=found["time"].values)
+        time, force, hub_moment = _winds_of(name, wind_speed, seed, duration)
+        carried = bearing_loads(concept, force, hub_moment, tilt=tilt, time=time)
         first = carried["force"].isel(bearing=0).transpose("axis", "time").values
-        radial, moment = np.hypot(*first[1:]), np.hypot(*hub[1][1:])
+        radial, moment = np.hypot(*first[1:]), np.hypot(*hub_moment[1:])
         rows.append((radial.mean(), radial.std(), moment.std()))
     return np.mean(rows, axis=0)
 

@@ -44,8 +44,9 @@ class Check:
         The printed number and ours, in `unit`.
     tolerance : float
         Allowed deviation; a share of `expected` if `kind` is ``"relative"``, in `unit` if it is
-        ``"absolute"``. For ``"below"`` the check asks ``got <= expected * (1 + tolerance)``.
-    kind : {"relative", "absolute", "below"}
+        ``"absolute"``. For ``"below"`` the check asks ``got <= expected * (1 + tolerance)``, for
+        ``"above"`` that ``got >= expected * (1 - tolerance)``.
+    kind : {"relative", "absolute", "below", "above"}
         How `tolerance` is meant.
     unit : str
         Unit of both numbers, ``"-"`` if none.
@@ -66,7 +67,7 @@ class Check:
     expected: float
     got: float
     tolerance: float
-    kind: Literal["relative", "absolute", "below"] = "relative"
+    kind: Literal["relative", "absolute", "below", "above"] = "relative"
     unit: str = "-"
     refused: str = ""
     missed: str = ""
@@ -85,7 +86,8 @@ class Check:
 
         Never of a NaN.
         """
-        deviation = self.deviation if self.kind == "below" else abs(self.deviation)
+        sides = {"below": self.deviation, "above": -self.deviation}
+        deviation = sides.get(self.kind, abs(self.deviation))
         beyond = self.refused or self.missed
         return bool(deviation > self.tolerance if beyond else deviation <= self.tolerance)
 

@@ -19,8 +19,8 @@ from .check import Check, Evidence, evidence
 
 _BASE, _FACTOR = "nrel-5mw", 2.0
 
-_CUBIC = 1 / 14
-"""Allowed of 3 over an exponent beyond 1: six seeds leave the exponent uncertain by 0.2."""
+_CUBIC = 0.2 / 3
+"""Allowed of an exponent below 3: six seeds leave it uncertain by 0.2."""
 
 _WIND, _SEEDS = 12.0, range(1, 7)
 
@@ -70,7 +70,7 @@ def _growth() -> Iterator[Check]:
         found = exponents(names, _WIND, _SEEDS, shaft=shaft)
         for load in asked:
             yield Check(
-                f"{load}, 3 over its exponent of R, {about}, ≤ 1",
-                "[Hart et al. 2022]: at least R³", 1.0, 3.0 / found[load], _CUBIC, "below",
+                f"{load}, exponent of R, {about}, ≥ 3",
+                "[Hart et al. 2022]: at least R³", 3.0, found[load], _CUBIC, "above",
                 missed=why.get(load, ""), evidence="another code",
             )  # fmt: skip

@@ -63,8 +63,19 @@ def test_every_printed_number_is_within_its_tolerance(name):
 
 
 def test_a_number_that_is_not_a_number_is_never_ok():
-    for kind in ("relative", "absolute", "below"):
+    for kind in ("relative", "absolute", "below", "above"):
         assert not validation.Check("x", "none", 1.0, float("nan"), 10.0, kind).ok
+
+
+def test_a_limit_to_one_side_holds_what_lies_beyond_it():
+    def row(got, kind):
+        return validation.Check("x", "none", 3.0, got, 0.1, kind)
+
+    held = [row(got, "above").ok for got in (-3.0, 2.6, 2.8, 3.0, 30.0)]
+    assert held == [False, False, True, True, True]
+    held = [row(got, "below").ok for got in (-3.0, 3.0, 3.2, 3.4)]
+    assert held == [True, True, True, False]
+    assert replace(row(2.6, "above"), missed="a slope").ok
 
 
 def test_a_refused_number_is_in_order_only_while_it_contradicts_its_source():
