@@ -317,7 +317,8 @@ class JournalBearing(JournalGeometry):
             Over ``time`` (and ``axis``, ``groove``, ``pad``): eccentricity_ratio, eccentricity,
             attitude_angle, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow,
             supply_power, total_fill, groove_flow, groove_pressure, residual, iterations; steps
-            where they adapt; pad_tilt where pads tilt, 0 of those that no film holds.
+            where they adapt; pad_tilt where pads tilt, 0 of those that no film holds; with `Heat`
+            ``temperature``, K, and ``clearance``, m, where the bearing grows as it warms.
             Attributes: ``mass_balance``, what entered the film less what left and what stayed, over
             what left; of a closed orbit ``closure`` and ``periods``; on "grid" bounds of what the
             cells do to the narrowest film, m, and the largest pressure, Pa,
