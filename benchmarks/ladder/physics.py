@@ -15,7 +15,7 @@ import json
 import tempfile
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -117,55 +117,62 @@ def scene_of(
 # --- sizes over wind speed and turbine ------------------------------------------------------------
 
 
-def sizes() -> Iterator[dict[str, Any]]:
-    """Measured size of every effect, by turbine and wind speed."""
+def everywhere(
+    measure: Callable[[str, float], dict[str, Any] | None],
+) -> Iterator[dict[str, Any]]:
+    """What is measured for each turbine and wind speed, where there is something."""
     for turbine in TURBINES:
         for speed in SPEEDS:
-            loads = {"wind_speeds": [speed]} | SHORT
-            scene = scene_of(turbine, loads=loads, accuracy=0.02)
             begun = time.process_time()
-            verdict = pilot(scene, effort=THOROUGH)
+            found = measure(turbine, speed)
             print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
-            if verdict is not None:
-                yield {
-                    "turbine": turbine,
-                    "speed": speed,
-                    "sizes": verdict.sizes,
-                    "refused": verdict.refused,
-                }
+            if found is not None:
+                yield {"turbine": turbine, "speed": speed} | found
+
+
+def sizes() -> Iterator[dict[str, Any]]:
+    """Measured size of every effect, by turbine and wind speed."""
+
+    def measure(turbine: str, speed: float) -> dict[str, Any] | None:
+        loads = {"wind_speeds": [speed]} | SHORT
+        verdict = pilot(scene_of(turbine, loads=loads, accuracy=0.02), effort=THOROUGH)
+        return verdict and {"sizes": verdict.sizes, "refused": verdict.refused}
+
+    return everywhere(measure)
 
 
 def elements() -> Iterator[dict[str, Any]]:
     """Measured size of profile and tilt of rollers in a sized tapered pair, as `sizes`."""
-    for turbine in TURBINES:
+
+    def measure(turbine: str, speed: float) -> dict[str, Any]:
         bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
         places = {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
-        for speed in SPEEDS:
-            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-            made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
-            scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
-            verdict = pilot(scene, effort=THOROUGH)
-            assert verdict is not None
-            rollers = {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}
-            yield {"turbine": turbine, "speed": speed, "sizes": rollers}
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
+        scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
+        verdict = pilot(scene, effort=THOROUGH)
+        assert verdict is not None
+        return {"sizes": {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}}
+
+    return everywhere(measure)
 
 
 def films() -> Iterator[dict[str, Any]]:
     """Measured size of contact, shell and turbulence of films that have them, as `sizes`."""
     stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
-    for turbine in TURBINES:
+
+    def measure(turbine: str, speed: float) -> dict[str, Any]:
         wall = 0.1 * scene_of(turbine).journal.geometry.diameter
         shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
         film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
-        for speed in SPEEDS:
-            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-            results = ["journal.film"]
-            scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
-            verdict = pilot(scene, effort=THOROUGH)
-            assert verdict is not None
-            ours = {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}
-            print(turbine, speed, ours, flush=True)
-            yield {"turbine": turbine, "speed": speed, "sizes": ours}
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        results = ["journal.film"]
+        scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
+        verdict = pilot(scene, effort=THOROUGH)
+        assert verdict is not None
+        return {"sizes": {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}}
+
+    return everywhere(measure)
 
 
 def lateral() -> Iterator[dict[str, Any]]:
@@ -173,18 +180,20 @@ def lateral() -> Iterator[dict[str, Any]]:
 
     With it a seed is another wind, so that a pilot, which has one, cannot tell.
     """
-    for turbine in TURBINES:
-        for speed in SPEEDS:
-            known, without = (
-                _means(scene_of(turbine, accuracy="given", loads={
-                    "wind_speeds": [speed], "seeds": REALISED, "duration": 120.0, "lateral": kind}))
-                for kind in ("coherent", "independent")
-            )  # fmt: skip
-            sizes: dict[str, float] = {}
-            for (bearing, quantity), value in known.items():
-                change = abs(without[bearing, quantity] / value - 1.0)
-                sizes[quantity] = max(sizes.get(quantity, 0.0), change)
-            yield {"turbine": turbine, "speed": speed, "sizes": {LATERAL.name: sizes}}
+
+    def measure(turbine: str, speed: float) -> dict[str, Any]:
+        winds = {"wind_speeds": [speed], "seeds": REALISED, "duration": 120.0}
+        known, without = (
+            _means(scene_of(turbine, accuracy="given", loads=winds | {"lateral": kind}))
+            for kind in ("coherent", "independent")
+        )
+        sizes: dict[str, float] = {}
+        for (bearing, quantity), value in known.items():
+            change = abs(without[bearing, quantity] / value - 1.0)
+            sizes[quantity] = max(sizes.get(quantity, 0.0), change)
+        return {"sizes": {LATERAL.name: sizes}}
+
+    return everywhere(measure)
 
 
 def _means(scene: Scene) -> dict[tuple[str, str], float]:

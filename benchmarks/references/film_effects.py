@@ -71,6 +71,9 @@ COMBINED: dict[str, tuple[dict[str, Any], bool, float]] = {
 }
 """By name: fields of the film, whether the shaft tilts, and the factor on the load."""
 
+ALONE = ("nothing", "tilt", "contact", "shell", "turbulence everywhere")
+"""Those of them with one effect, after that without any."""
+
 
 def path(film: Film, tilts: bool, factor: float, steps: int) -> xr.Dataset:
     """Path of the shaft with the effects."""
@@ -102,14 +105,14 @@ def measure(steps: int) -> None:
 
 def costs() -> None:
     """Print processor times over those without effects: a row for each effect and rung."""
-    rng, alone = np.random.default_rng(0), [*COMBINED][:5]
+    rng = np.random.default_rng(0)
     force = np.column_stack([rng.uniform(1e6, 3e6, RESTS), rng.uniform(-5e5, 5e5, RESTS)])
     speed = rng.uniform(0.7, 1.3, RESTS)
     tilt = UNIT * np.column_stack([rng.uniform(-0.2, 0.2, RESTS), rng.uniform(-0.1, 0.1, RESTS)])
     print(head("on", "rung", "at rest", "in motion"))
     for rung, steps in (("reduced", 200), ("grid", 40)):
         plain: list[float] = []
-        for name in alone:
+        for name in ALONE:
             fields, tilts, factor = COMBINED[name]
             film = replace(FILM, rung=rung, **fields)
             line = {"tilt": tilt} if tilts else {}

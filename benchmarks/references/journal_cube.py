@@ -81,7 +81,8 @@ def main() -> None:
     chosen = parser.parse_args()
     run, options = chosen.run, read_scene(chosen.run / "scene.toml").journal
     cases = sorted(path.stem for path in (run / "shaft").glob("*.h5"))[: chosen.cases]
-    _orbit(options, "reduced", *(part[:3] for part in series(run, cases[0], chosen.bearing)))
+    for rung in ("reduced", "grid"):  # compiled before, in the process that workers come from
+        _orbit(options, rung, *(part[:3] for part in series(run, cases[0], chosen.bearing)))
     begin = clock.perf_counter()
     with ProcessPoolExecutor(chosen.workers) as pool:
         work = partial(follow, run, options, chosen.bearing)

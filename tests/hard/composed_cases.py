@@ -113,9 +113,9 @@ def thin_shell_in_motion():
     time = np.linspace(0.0, 0.125, 11)
     turn = 2 * np.pi * 2 * time
     force = 9e4 * np.stack([1 + 0.2 * np.cos(turn), 0.2 * np.sin(turn)], axis=-1)
-    orbit = SMALL.orbit(time, force, 60.0, shell=shell, grid=(96, 40), **MIXED)
+    orbit = SMALL.orbit(time, force, 60.0, shell=shell, grid=(72, 24), **MIXED)
     assert float(orbit["eccentricity_ratio"].max()) > 1
-    assert float(orbit["minimum_film"].min()) > 0
+    assert float(orbit["minimum_film"].min()) > orbit.attrs["minimum_film_grid_error"]
     return _path(orbit, f"ε ≤ {float(orbit['eccentricity_ratio'].max()):.2f}")
 
 

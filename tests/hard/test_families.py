@@ -27,6 +27,7 @@ def test_a_thousand_draws_have_an_answer_or_a_named_reason(family):
 
 def test_a_draw_of_any_parts_together_is_one_that_the_package_is_asked_for():
     """Some are at rest and some in motion, some answered and some refused; none is a raw error."""
-    counts = run("composed", range(12), show=False, cap=CAP)
+    counts = run("composed", range(24, 40), show=False, cap=CAP)
     assert counts["raw"] == 0
     assert counts["answered"] > 0
+    assert counts["reason"] > 0
