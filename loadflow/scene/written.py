@@ -201,6 +201,13 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         found[room] = _each(data[room], path)
     if isinstance(places := data.get("bearings"), dict):
         found["bearings"] = {name: _each(part, path) for name, part in places.items()}
+    if isinstance(candidates := data.get("candidates"), dict):
+        found["candidates"] = {
+            name: {place: _each(part, path) for place, part in one.items()}
+            if isinstance(one, dict)
+            else one
+            for name, one in candidates.items()
+        }
     if isinstance(shaft := data.get("shaft"), dict):
         found["shaft"] = {name: _on_frames(part, path) for name, part in shaft.items()}
     turbine = data.get("turbine")

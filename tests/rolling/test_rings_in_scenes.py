@@ -24,6 +24,7 @@ from loadflow.rolling import (
 )
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.scene import make_scene
+from loadflow.scene.written import anchored
 from loadflow.stages.registry import models
 
 GEOMETRY = {
@@ -220,6 +221,13 @@ def test_a_ring_with_its_housing_may_be_given_as_a_matrix_in_a_file(tmp_path):
     with pytest.raises(InputError, match="has changed since"):
         part_of(tmp_path, {"kind": "matrix", "file": "housing.npy",
                            "sha256": part.outer_ring.sha256})  # fmt: skip
+
+
+def test_files_of_a_candidate_lie_beside_the_scene_as_those_of_its_bearings_do(tmp_path):
+    ring = {"outer_ring": {"kind": "matrix", "file": "housing.npy"}}
+    found = anchored({"bearings": {"M": ring}, "candidates": {"own": {"M": [ring]}}}, tmp_path)
+    whole = {"outer_ring": {"kind": "matrix", "file": str(tmp_path / "housing.npy")}}
+    assert found == {"bearings": {"M": whole}, "candidates": {"own": {"M": [whole]}}}
 
 
 @pytest.mark.parametrize(
