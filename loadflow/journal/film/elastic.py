@@ -89,7 +89,7 @@ class ElasticFilm(DiscreteFilm):
     @property
     def deformation(self) -> Array:
         """Growth of the gap of the cells last placed, (nx, nz), m."""
-        growth = self.gap.growth + self.gap.pressed_open()
+        growth = self.gap.pressed + self.gap.pressed_open()
         return growth * (self.relative_clearance * self.radius)
 
     def target(self, position: Array, step: Array) -> Array:

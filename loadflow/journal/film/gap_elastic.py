@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 class GrowingGap(ShapedGap):
     """Gap ``H = H_0(θ, z) + W − Σ q_j N_j(θ, z)`` with a growth W of each cell.
 
-    Between cell centres the growth runs straight.
+    It is `pressed` open, and has an `expansion` by heat; between cell centres it runs straight.
 
     Parameters
     ----------
@@ -41,11 +41,22 @@ class GrowingGap(ShapedGap):
         self.own_share = _own_share(mesh)
         self._ends_deform = ends_deform
         self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
+        self.pressed, self.expansion = np.zeros(mesh.shape), np.zeros(mesh.shape)
         self.growth = np.zeros(mesh.shape)
 
-    def grow(self, growth: Array) -> None:
-        """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
-        self.growth = growth
+    def grow(self, pressed: Array) -> None:
+        """Let pressure open the gaps of the cells by `pressed` (nx, nz), clearances."""
+        self.pressed = pressed
+        self._open()
+
+    def expand(self, expansion: Array) -> None:
+        """Let heat open the gaps of the cells by `expansion` (nx, nz), clearances."""
+        self.expansion = expansion
+        self._open()
+
+    def _open(self) -> None:
+        """Give faces and cells their growth by both."""
+        self.growth = growth = self.pressed + self.expansion
         sides = np.stack([growth[side] for side in self._sides], axis=1)
         own = self.own_share[:, :, None]
         self._face_gap = self._rigid_face + own * sides + (1.0 - own) * sides[:, ::-1]

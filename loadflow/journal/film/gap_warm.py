@@ -12,6 +12,7 @@ from loadflow.journal.film._gap_kernels import faces_across
 from loadflow.journal.film.gap_elastic import GrowingGap
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.film.gap_rough import RoughShapedGap
 
 Array = NDArray[np.float64]
 
@@ -84,3 +85,7 @@ class WarmGap(GrowingGap):
         """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
         rows = self.mesh.shape[1]
         return np.asarray(self.coef[row.HINV, :-1, :rows] / self._across.shear)
+
+
+class RoughWarmGap(RoughShapedGap, WarmGap):
+    """The same between rough surfaces; `RoughShapedGap` says how far the shaft goes."""
