@@ -206,11 +206,12 @@ class GrowingNodeLoad(NodeLoad):
     ) -> None:
         super().__init__(contact, gap, radius, mirrors, grooves)
         self._growing = gap
-        self._between = gap.between(self._angle, self._z)
+        self._places = gap.places(self._angle, self._z)
+        self._between = self._places[0]
 
     def _gaps(self, position: Array) -> Array:
         """Gap of the nodes but for what asperities press open."""
-        return super()._gaps(position) + self._between.of(self._growing.growth)
+        return super()._gaps(position) + self._growing.grown_at(self._places)
 
 
 class YieldingNodeLoad(GrowingNodeLoad):

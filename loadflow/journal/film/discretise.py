@@ -25,7 +25,12 @@ from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
 from loadflow.journal.film.gap_rough import RoughElasticGap, RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.film.gap_warm import RoughWarmGap, WarmGap
+from loadflow.journal.film.gap_warm import (
+    ElasticWarmGap,
+    RoughElasticWarmGap,
+    RoughWarmGap,
+    WarmGap,
+)
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import Mesh, build_mesh
@@ -178,11 +183,13 @@ def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
 
 def _elastic_gap(mesh: ShapedMesh, bore: Bore, options: Film, compliance: Compliance) -> ElasticGap:
     """Gap of an elastic shell; a local one yields to asperities where each of them presses."""
+    spreads, cold = compliance.spreads, options.heat is None
     if options.contact is None:
-        return ElasticGap(mesh, bore, ends_deform=compliance.spreads)
-    spreads = compliance.spreads
+        smooth = ElasticGap if cold else ElasticWarmGap
+        return smooth(mesh, bore, ends_deform=spreads)
     alone = 0.0 if spreads else float(compliance.local.flat[0])
-    return RoughElasticGap(mesh, bore, options.contact, alone, ends_deform=spreads)
+    rough = RoughElasticGap if cold else RoughElasticWarmGap
+    return rough(mesh, bore, options.contact, alone, ends_deform=spreads)
 
 
 def _outside(

@@ -153,7 +153,7 @@ class ElasticFilm(DiscreteFilm):
         shell_kernel.gap_stencil(
             self.state, gap.coef, gap.blend, gap.own_share, *gap.nodes, gap.surfaces, mesh.dz,
             mesh.gz, mesh.closed, self.wedge, self.edges, self.slope * rate, self.fixed,
-            self.stencil,
+            gap.thinned, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(

@@ -202,7 +202,7 @@ class EnergyEquation:
             each.append(own)
             sheared += unit * speed**2 * shear / len(films)
             pumped += (lost + self._rubbed(position)) / len(films)
-            gaps += clearance * self.gap.films[self.wet] / len(films)
+            gaps += clearance * self.gap.means[self.wet] / len(films)
         flows = Flows.mean(each)
         self._surfaces = Surfaces.of(heat, gaps)
         volumes, size = self.volumes, self.size

@@ -65,7 +65,7 @@ class ShellContact(YieldingNodeLoad):
             return np.full_like(alone, np.nan)
         modes = self._modes
         rigid = modes.gaps(position, self._gap.curvature) - self._summits
-        rigid = (rigid + self._between.of(self._shell.expansion)).ravel()
+        rigid = (rigid + self._places[1].of(self._shell.expansion)).ravel()
         pressed_open = self._shell.pressed
         growth = pressed_open if unit and np.isfinite(pressed_open).all() else alone
         pressed, slope = self._asperities(rigid, growth)
