@@ -16,13 +16,13 @@ from loadflow.journal import (
     Heat,
     JournalBearing,
     Lobes,
-    LocalShell,
     Lubricant,
     MassConserving,
     Reynolds,
     Sommerfeld,
     Supply,
     TiltingPads,
+    Turbulence,
 )
 from loadflow.scene.journal import make_journal
 from loadflow.tribology import ExponentialOil
@@ -208,8 +208,8 @@ def test_a_tilted_shaft_is_warmer_where_the_film_is_thinner():
 def test_what_it_does_not_know_is_refused_by_name():
     with pytest.raises(InputError, match=r"cavitation = Reynolds.* conserves mass"):
         LOBES.equilibrium(LOAD, SPEED, film(law=Reynolds()))
-    with pytest.raises(InputError, match="shell = LocalShell"):
-        LOBES.equilibrium(LOAD, SPEED, film(shell=LocalShell(1e-12)))
+    with pytest.raises(InputError, match="turbulence = Turbulence"):
+        LOBES.equilibrium(LOAD, SPEED, film(turbulence=Turbulence()))
     with pytest.raises(InputError, match="weights = "):
         LOBES.equilibrium([LOAD], SPEED, film(), weights=[1.0])
     with pytest.raises(InputError, match="velocity = "):

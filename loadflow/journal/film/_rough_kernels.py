@@ -133,12 +133,13 @@ def pressed(
 
 
 @njit(cache=True, nogil=True)
-def asperity_field(gap, s, free, value, slope):
+def asperity_field(gap, s, give, free, value, slope):
     """Fill pressure of the summits at the nodes of a `gap` (n,), in units of K E*, and its slope.
 
-    Nodes that are not `free` carry none.
+    Nodes that are not `free` carry none; the shell yields by `give`.
     """
     for i in range(gap.size):
         if free[i] and gap[i] <= NO_CONTACT * s:
-            pressure, rise = laws.pressure_integral(gap[i] / s)
-            value[i], slope[i] = pressure, rise / s
+            planes, share = yielded(gap[i], s, give)
+            pressure, rise = laws.pressure_integral(planes / s)
+            value[i], slope[i] = pressure, rise * share / s

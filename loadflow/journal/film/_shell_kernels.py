@@ -72,7 +72,7 @@ def _upstream_share(half):
 @njit(cache=True, nogil=True, error_model="numpy")
 def gap_stencil(
     state, coef, blend, own_share, face, face_gap, cell, cell_gap, surfaces, dz, gz, closed,
-    wedge, ends, storing, groove, out,
+    wedge, ends, storing, groove, thinned, out,
 ):  # fmt: skip
     """Fill `out` (5, nx, nz) at the state and gap last placed.
 
@@ -80,10 +80,13 @@ def gap_stencil(
     of their own cell, the rest being that of the other one; `face`, `cell`, their gaps and
     `surfaces` those of `_gap_kernels.shaped_coefficients`, the gaps in place and deformed; `ends`
     are edge pressure, pressure and fill of an inlet line;
-    `storing` (Pa) is the squeeze pressure of a growth of the gap in one implicit step.
+    `storing` (Pa) is the squeeze pressure of a growth of the gap in one implicit step; `thinned`
+    are conductance and drag of the faces (nx + 1, nz), and conductance of the cells (nx, nz), over
+    those of one viscosity.
     """
     _, nx, nz = state.shape
     p_edge, p_line, f_line = ends
+    around, dragged, across = thinned
     p, fill = state[P], state[FILL]
     out[:] = 0.0
     for i in range(nx + 1):
@@ -96,22 +99,23 @@ def gap_stencil(
             p_left, f_left = (p[left, k], fill[left, k]) if has_left else (p_line, f_line)
             p_right, f_right = (p[right, k], fill[right, k]) if has_right else (p_line, f_line)
             drag = wedge * (f_left if wedge > 0 else f_right)
-            g, share, up = coef[G, i, k], blend[0, i, k], blend[3, i, k]
-            e = blend[2, i, k] if share > 0.0 else coef[E, i, k]
+            thin, drags = around[i, k], dragged[i, k]
+            g, share, up = coef[G, i, k] / thin, blend[0, i, k], blend[3, i, k]
+            e = blend[2, i, k] if share > 0.0 else coef[E, i, k] / drags
             by_left, by_right = 0.0, 0.0
             for side in range(2):
                 _, _, by_2, by_3 = resistance(face_gap[i, side, k], face[2, i, side], surfaces)
                 by_g, by_e = -g * g * by_3, g * (by_2 - e * by_3)
                 if share > 0.0:
                     by_e = (1.0 - share) * by_e - blend[1, i, k] * (up - e) * by_g / g
-                flow = dz[k] * (drag * by_e - by_g * (p_right - p_left))
+                flow = dz[k] * (drag * drags * by_e - thin * by_g * (p_right - p_left))
                 own = own_share[i, side]
                 by_left += flow * (own if side == 0 else 1.0 - own)
                 by_right += flow * (own if side == 1 else 1.0 - own)
             if share > 0.0:
                 before = wedge > 0
                 _, rise = _dragged(cell_gap[left if before else right, k], surfaces)
-                rise *= dz[k] * drag * share
+                rise *= dz[k] * drag * drags * share
                 by_left += rise if before else 0.0
                 by_right += 0.0 if before else rise
             if not has_left:
@@ -128,6 +132,7 @@ def gap_stencil(
     for i in range(nx):
         for k in range(nz):
             _, cubed, _, wider, _, _ = cell_terms(cell_gap[i, k], cell[2, i], surfaces)
+            cubed *= across[i, k]
             out[ITSELF, i, k] += fill[i, k] * storing * wider * dz[k]
             if k == 0 and not groove[i, 0]:
                 out[ITSELF, i, 0] += cubed * gz[0] * (p[i, 0] - p_edge)
@@ -142,6 +147,7 @@ def gap_stencil(
             out[ITSELF, i, k] += here
             out[OUTER, i, k] -= here
             _, cubed, _, _, _, _ = cell_terms(cell_gap[i, k + 1], cell[2, i], surfaces)
+            cubed *= across[i, k + 1]
             there = flow * dz[k + 1] * cubed / coef[CELL3, i, k + 1] ** 2
             out[INNER, i, k + 1] += there
             out[ITSELF, i, k + 1] -= there

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from loadflow.journal.contact import Contact
 from loadflow.journal.film import _rough_kernels as kernel
 from loadflow.journal.film.gap import turning_frame
+from loadflow.journal.film.gap_elastic import GrowingGap
 from loadflow.journal.film.gap_rough import RoughElasticGap
 from loadflow.journal.film.gap_shaped import ShapedGap
 
@@ -141,11 +142,31 @@ class NodeLoad:
         self._angle, self._z = angle, z
         self._modes = gap.modes_at(angle, mesh.segment[columns], z)
         self._held = np.ascontiguousarray(grooves[np.ix_(columns, rows)])
+        self._cells = (columns[:, None] * mesh.z.size + rows).ravel()
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), clearances."""
-        gaps = self._modes.gaps(position, self._gap.curvature)
-        return self._touch(gaps, 0.0, _NOT_ASKED)
+        return self._touch(self._gaps(position), self._give, _NOT_ASKED)
+
+    def forces(self, position: Array) -> Array:
+        """Force normal to the shell that they carry in each cell (nx, nz), N."""
+        gaps = (self._gaps(position) - self._summits).ravel()
+        value, slope = np.zeros(gaps.size), np.zeros(gaps.size)
+        free = ~self._held.ravel()
+        kernel.asperity_field(gaps, self._roughness, self._give, free, value, slope)
+        weights = self._unit * np.outer(self._around, self._across).ravel()
+        shape = self._gap.mesh.shape
+        sums = np.bincount(self._cells, weights * value, shape[0] * shape[1])
+        return np.asarray(sums.reshape(shape))
+
+    def _gaps(self, position: Array) -> Array:
+        """Gap of the nodes."""
+        return self._modes.gaps(position, self._gap.curvature)
+
+    @property
+    def _give(self) -> float:
+        """Growth of the gap under the unit of asperity pressure, clearances."""
+        return 0.0
 
     @property
     def _unit(self) -> float:
@@ -164,7 +185,36 @@ class NodeLoad:
         return Touch(unit * load, unit * stiffness, unit * normal, *worst)
 
 
-class YieldingNodeLoad(NodeLoad):
+class GrowingNodeLoad(NodeLoad):
+    """Asperities in a gap that grows cell by cell, by heat or by the pressure of the film.
+
+    Parameters
+    ----------
+    contact, radius, mirrors, grooves
+        As for `NodeLoad`.
+    gap : GrowingGap
+        Gap of the mean planes, but for what asperities press open.
+    """
+
+    def __init__(
+        self,
+        contact: Contact,
+        gap: GrowingGap,
+        radius: float,
+        mirrors: float,
+        grooves: NDArray[np.bool_],
+    ) -> None:
+        super().__init__(contact, gap, radius, mirrors, grooves)
+        self._growing = gap
+        self._places = gap.places(self._angle, self._z)
+        self._between = self._places[0]
+
+    def _gaps(self, position: Array) -> Array:
+        """Gap of the nodes but for what asperities press open."""
+        return super()._gaps(position) + self._growing.grown_at(self._places)
+
+
+class YieldingNodeLoad(GrowingNodeLoad):
     """Asperities on a shell that yields where it is pressed, by film and asperities alike.
 
     Parameters
@@ -185,25 +235,19 @@ class YieldingNodeLoad(NodeLoad):
     ) -> None:
         super().__init__(contact, gap, radius, mirrors, grooves)
         self._shell = gap
-        self._between = gap.between(self._angle, self._z)
 
-    def at(self, position: Array) -> Touch:
-        """What they carry with the shaft at `position` (m,), clearances."""
-        return self._touch(self._gaps(position), self._shell.rough.yields[0], _NOT_ASKED)
+    @property
+    def _give(self) -> float:
+        return self._shell.rough.yields[0]
 
     def by_growth(self, position: Array) -> Array:
         """Derivative of the load by the growth of the cells, (m, nx, nz), N per clearance."""
         gaps, modes = self._gaps(position), self._modes
         relief = np.zeros(gaps.shape)
-        self._touch(gaps, self._shell.rough.yields[0], relief)
+        self._touch(gaps, self._give, relief)
         parts = self._unit * relief * modes.reach[:, :, None] * modes.lengths[:, None, :]
         shape = self._shell.mesh.shape
         return np.array([self._between.back(part, shape) for part in parts])
-
-    def _gaps(self, position: Array) -> Array:
-        """Gap of the nodes but for what asperities press open."""
-        rigid = self._modes.gaps(position, self._gap.curvature)
-        return rigid + self._between.of(self._shell.growth)
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:

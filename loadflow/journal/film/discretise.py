@@ -9,18 +9,28 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw
-from loadflow.journal.film.asperity_load import CylinderLoad, NodeLoad, YieldingNodeLoad
+from loadflow.journal.film.asperity_load import (
+    CylinderLoad,
+    GrowingNodeLoad,
+    NodeLoad,
+    YieldingNodeLoad,
+)
 from loadflow.journal.film.compliance import Compliance, compliance_of
 from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.feed import Feed
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import CylindricalGap
-from loadflow.journal.film.gap_elastic import ElasticGap
+from loadflow.journal.film.gap_elastic import ElasticGap, GrowingGap
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
 from loadflow.journal.film.gap_rough import RoughElasticGap, RoughGap, RoughShapedGap
 from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.film.gap_warm import (
+    ElasticWarmGap,
+    RoughElasticWarmGap,
+    RoughWarmGap,
+    WarmGap,
+)
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film.mesh import Mesh, build_mesh
@@ -119,14 +129,16 @@ def shaped_film(
     film.ambient = _outside(gap, film, options.edge_pressure, bearing.shape)
     if contact is not None:
         radius, mirrors, grooved = bore.radius, film.mirrors, film.grooved
-        if options.shell is None:
-            film.contact = NodeLoad(contact, gap, radius, mirrors, grooved)
-        else:
+        if options.shell is not None:
             between, rest = cast("RoughElasticGap", gap), (radius, mirrors, grooved)
             if compliance.spreads:
                 film.contact = ShellContact(contact, between, *rest, compliance)
             else:
                 film.contact = YieldingNodeLoad(contact, between, *rest)
+        elif isinstance(gap, GrowingGap):
+            film.contact = GrowingNodeLoad(contact, gap, radius, mirrors, grooved)
+        else:
+            film.contact = NodeLoad(contact, gap, radius, mirrors, grooved)
     _choose_flow(film, options)
     return gap, film
 
@@ -164,18 +176,20 @@ def _rigid_gap(mesh: ShapedMesh, bore: Bore, options: Film) -> ShapedGap:
     contact = options.contact
     if contact is not None:
         require(not bore.pads, "contact", contact, "None for pads that tilt")
-        require(options.heat is None, "contact", contact, "None with a heat balance of the film")
-        return RoughShapedGap(mesh, bore, contact)
+        kind = RoughShapedGap if options.heat is None else RoughWarmGap
+        return kind(mesh, bore, contact)
     return ShapedGap(mesh, bore) if options.heat is None else WarmGap(mesh, bore)
 
 
 def _elastic_gap(mesh: ShapedMesh, bore: Bore, options: Film, compliance: Compliance) -> ElasticGap:
     """Gap of an elastic shell; a local one yields to asperities where each of them presses."""
+    spreads, cold = compliance.spreads, options.heat is None
     if options.contact is None:
-        return ElasticGap(mesh, bore, ends_deform=compliance.spreads)
-    spreads = compliance.spreads
+        smooth = ElasticGap if cold else ElasticWarmGap
+        return smooth(mesh, bore, ends_deform=spreads)
     alone = 0.0 if spreads else float(compliance.local.flat[0])
-    return RoughElasticGap(mesh, bore, options.contact, alone, ends_deform=spreads)
+    rough = RoughElasticGap if cold else RoughElasticWarmGap
+    return rough(mesh, bore, options.contact, alone, ends_deform=spreads)
 
 
 def _outside(

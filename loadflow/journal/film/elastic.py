@@ -89,7 +89,7 @@ class ElasticFilm(DiscreteFilm):
     @property
     def deformation(self) -> Array:
         """Growth of the gap of the cells last placed, (nx, nz), m."""
-        growth = self.gap.growth + self.gap.pressed_open()
+        growth = self.gap.pressed + self.gap.pressed_open()
         return growth * (self.relative_clearance * self.radius)
 
     def target(self, position: Array, step: Array) -> Array:
@@ -153,7 +153,7 @@ class ElasticFilm(DiscreteFilm):
         shell_kernel.gap_stencil(
             self.state, gap.coef, gap.blend, gap.own_share, *gap.nodes, gap.surfaces, mesh.dz,
             mesh.gz, mesh.closed, self.wedge, self.edges, self.slope * rate, self.fixed,
-            self.stencil,
+            gap.thinned, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
         shell_kernel.add_stencil(

@@ -5,8 +5,8 @@
 by upwind finite volumes on the cells of the film. What flows over a face has the temperature of the
 cell, groove or surroundings that it comes from. T is that of the surfaces, which with three points
 across differs from the mean (`surface_temperatures`). Dissipation is that of shear, by the share of
-liquid of a cell, and of pressure. The viscosity follows the temperature within the solution; flows
-and gap are given.
+liquid of a cell, of pressure, and of asperities that rub. The viscosity follows the temperature
+within the solution; flows and gap are given.
 
 Every groove is a volume in which all mixes: with q_out of the hot oil that flows into it and q_in
 that it gives, λ' = min(λ, q_in/q_out), it has T_in = [λ' q_out T_out + (q_in − λ' q_out) T_sup] /
@@ -18,7 +18,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +27,7 @@ from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL
 from loadflow.journal.film import _energy_kernels as kernel
 from loadflow.journal.film import _kernels as coefficient
+from loadflow.journal.film.asperity_load import NodeLoad
 from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
@@ -158,12 +159,12 @@ class EnergyEquation:
             shell = temperature.copy()
             shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
             growth = self._expansion.of(shell, self._shaft)
-            self.gap.grow(growth / (self.film.relative_clearance * self.film.radius))
+            self.gap.expand(growth / (self.film.relative_clearance * self.film.radius))
 
     @property
     def growth(self) -> Array:
         """Growth of the gap of the cells by heat, (nx, nz), m."""
-        return self.gap.growth * (self.film.relative_clearance * self.film.radius)
+        return self.gap.expansion * (self.film.relative_clearance * self.film.radius)
 
     @property
     def mean_growth(self) -> float:
@@ -200,11 +201,13 @@ class EnergyEquation:
             own, shear, lost = self._given(u, position)
             each.append(own)
             sheared += unit * speed**2 * shear / len(films)
-            pumped += lost / len(films)
-            gaps += clearance * self.gap.films[self.wet] / len(films)
+            pumped += (lost + self._rubbed(position)) / len(films)
+            gaps += clearance * self.gap.means[self.wet] / len(films)
         flows = Flows.mean(each)
         self._surfaces = Surfaces.of(heat, gaps)
         volumes, size = self.volumes, self.size
+        if not (sheared.any() or flows.flow.any() or heat.shell_transfer or heat.shaft_transfer):
+            return self._told(self._as_supplied(), flows, sheared, pumped, 0.0)
         matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
         t = np.full(volumes.unknowns, heat.inlet_temperature)
         t[:size] = guess[self.wet]
@@ -233,6 +236,12 @@ class EnergyEquation:
         return self._told(t, flows, sheared, pumped, residual)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _as_supplied(self) -> Array:
+        """Unknowns of a film that stands, makes no heat and passes none on."""
+        t = np.zeros(self.volumes.unknowns)
+        t[: self.volumes.count] = self.heat.inlet_temperature
+        return t
+
     def _sources(self, t: Array, sheared: Array, pumped: Array) -> tuple[Array, csc_matrix]:
         """Heat made in the cells, its first moment, and their changes by the unknowns."""
         volumes, cells = self.volumes, np.arange(self.size)
@@ -273,6 +282,16 @@ class EnergyEquation:
         flows = self._numbered(unit * around, unit * across, unit * dragged)
         shear = (fill * self.gap.shear * mesh.dz)[self.wet]
         return flows, shear, unit * lost[self.wet]
+
+    def _rubbed(self, position: Array) -> Array | float:
+        """Heat that asperities make in the wet cells, W; 0 of smooth surfaces."""
+        film = self.film
+        if film.contact is None:
+            return 0.0
+        asperities = cast("NodeLoad", film.contact)
+        sliding = abs(film.speed) * film.radius
+        normal = asperities.forces(position)[self.wet]
+        return np.asarray(asperities.contact.coefficient * sliding * normal)
 
     def _dragged(self, fill: Array) -> Array:
         """Flow over every face around, (nx + 1, nz), that the shaft drags along."""

@@ -19,20 +19,32 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+class Thinned(NamedTuple):
+    """Conductance and drag of the faces around (nx + 1, nz), conductance of the cells (nx, nz).
+
+    Over those of the film's one viscosity.
+    """
+
+    around: Array
+    dragged: Array
+    across: Array
+
+
 class GrowingGap(ShapedGap):
     """Gap ``H = H_0(θ, z) + W − Σ q_j N_j(θ, z)`` with a growth W of each cell.
 
-    Between cell centres the growth runs straight.
+    It is `pressed` open, and has an `expansion` by heat; between cell centres it runs straight.
 
     Parameters
     ----------
     mesh, bore
         As for `ShapedGap`.
     ends_deform : bool
-        Whether the growth goes on to the bearing ends, or ends there with the pressure.
+        Whether what is pressed open goes on to the bearing ends, or ends there with the pressure;
+        expansion goes on.
     """
 
-    def __init__(self, mesh: ShapedMesh, bore: Bore, ends_deform: bool) -> None:
+    def __init__(self, mesh: ShapedMesh, bore: Bore, ends_deform: bool = True) -> None:
         super().__init__(mesh, bore, along=True)
         self._rigid_face, self._rigid_cell = self._face_gap, self._cell_gap
         columns = np.arange(mesh.shape[0])
@@ -40,12 +52,23 @@ class GrowingGap(ShapedGap):
         self._sides = np.append(first, columns), np.append(columns, last)
         self.own_share = _own_share(mesh)
         self._ends_deform = ends_deform
-        self._to_spots = self.between(self.layout.angle, self.layout.spots_z)
+        self._to_spots = self.places(self.layout.angle, self.layout.spots_z)
+        self.pressed, self.expansion = np.zeros(mesh.shape), np.zeros(mesh.shape)
         self.growth = np.zeros(mesh.shape)
 
-    def grow(self, growth: Array) -> None:
-        """Let the gaps of the cells grow by `growth` (nx, nz), clearances."""
-        self.growth = growth
+    def grow(self, pressed: Array) -> None:
+        """Let pressure open the gaps of the cells by `pressed` (nx, nz), clearances."""
+        self.pressed = pressed
+        self._open()
+
+    def expand(self, expansion: Array) -> None:
+        """Let heat open the gaps of the cells by `expansion` (nx, nz), clearances."""
+        self.expansion = expansion
+        self._open()
+
+    def _open(self) -> None:
+        """Give faces and cells their growth by both."""
+        self.growth = growth = self.pressed + self.expansion
         sides = np.stack([growth[side] for side in self._sides], axis=1)
         own = self.own_share[:, :, None]
         self._face_gap = self._rigid_face + own * sides + (1.0 - own) * sides[:, ::-1]
@@ -54,11 +77,18 @@ class GrowingGap(ShapedGap):
     def gaps(self, position: Array) -> Array:
         """Gap at the sampled places, in clearances; the growth runs straight between cells."""
         gaps = super().gaps(position)
-        return gaps + self._to_spots.of(self.growth) if self.growth.any() else gaps
+        return gaps + self.grown_at(self._to_spots) if self.growth.any() else gaps
 
-    def between(self, angle: Array, z: Array) -> Between:
-        """Growth on straight lines between the cells, at `angle` (n,), rad, and `z` (l,)."""
-        return Between(_around(angle, self.mesh), _across(z, self.mesh, self._ends_deform))
+    def places(self, angle: Array, z: Array) -> tuple[Between, Between]:
+        """Places at `angle` (n,), rad, and `z` (l,): to what is pressed open, and to expansion."""
+        around = _around(angle, self.mesh)
+        ends = (_across(z, self.mesh, deform) for deform in (self._ends_deform, True))
+        first, second = (Between(around, across) for across in ends)
+        return first, second
+
+    def grown_at(self, places: tuple[Between, Between]) -> Array:
+        """Growth at `places` (n, l), clearances."""
+        return places[0].of(self.pressed) + places[1].of(self.expansion)
 
 
 class ElasticGap(GrowingGap):
@@ -72,12 +102,13 @@ class ElasticGap(GrowingGap):
     def __init__(self, mesh: ShapedMesh, bore: Bore, ends_deform: bool) -> None:
         super().__init__(mesh, bore, ends_deform)
         self.blend = np.zeros((4, mesh.shape[0] + 1, mesh.shape[1]))
+        self.thinned = Thinned(*(np.ones((mesh.shape[0] + i, mesh.shape[1])) for i in (1, 1, 0)))
         self.advected = np.zeros(self.blend.shape[1:])
 
     def drag(self, advected: Array) -> None:
         """Set what the surfaces drag along for each Pa that widens the cells (nx, nz)."""
         before, behind = (advected[side] for side in self._sides)
-        self.advected = 0.5 * (before + behind)
+        self.advected = 0.5 * (before + behind) * self.thinned.dragged / self.thinned.around
 
     def _evaluate(self) -> None:
         """Fill `coef` and its derivatives; where pressure widens the gap, of the upstream side."""

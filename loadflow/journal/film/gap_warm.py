@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film import _kernels as row
 from loadflow.journal.film._gap_kernels import faces_across
-from loadflow.journal.film.gap_elastic import GrowingGap
+from loadflow.journal.film.gap_elastic import ElasticGap, GrowingGap, Thinned
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_mesh import ShapedMesh
+from loadflow.journal.film.gap_rough import RoughElasticGap, RoughShapedGap
 
 Array = NDArray[np.float64]
 
@@ -41,19 +42,19 @@ class WarmGap(GrowingGap):
 
     Parameters
     ----------
-    mesh, bore
-        As for `ShapedGap`.
+    mesh, bore, *more, **ends
+        As for `GrowingGap`, or what the other gap of a class made of two asks for.
     """
 
-    def __init__(self, mesh: ShapedMesh, bore: Bore) -> None:
-        super().__init__(mesh, bore, ends_deform=True)
+    def __init__(self, mesh: ShapedMesh, bore: Bore, *more: Any, **ends: Any) -> None:
+        super().__init__(mesh, bore, *more, **ends)
         self.thicken(AcrossFilm(*(np.ones(mesh.shape) for _ in range(3))))
 
     def thicken(self, across: AcrossFilm) -> None:
         """Set the viscosity of the cells (nx, nz)."""
         self._across = across
-        self._faces = 1.0 / self._over_faces(across.flow)
-        self._dragged = self._over_faces(across.drag)
+        faces = self._over_faces(across.flow), self._over_faces(across.drag)
+        self.thinned = Thinned(1.0 / faces[0], faces[1], 1.0 / across.flow)
 
     def _over_faces(self, values: Array) -> Array:
         """Mean of `values` of the cells on the ways between their centres."""
@@ -66,15 +67,15 @@ class WarmGap(GrowingGap):
         frame = super().place(position)
         rows = self.mesh.shape[1]
         for coef in (self.coef, self._by_x, self._by_y):
-            coef[row.G, :, :rows] *= self._faces
-            coef[row.E, :, :rows] *= self._dragged
-            coef[row.CELL3, :-1, :rows] /= self._across.flow
+            coef[row.G, :, :rows] *= self.thinned.around
+            coef[row.E, :, :rows] *= self.thinned.dragged
+            coef[row.CELL3, :-1, :rows] *= self.thinned.across
         self.coef[row.HINV, :-1, :rows] *= self._across.shear
         faces_across(self.coef, self.mesh.dz, False, self.coef)
         return frame
 
     @property
-    def films(self) -> Array:
+    def means(self) -> Array:
         """Mean gap of the cells (nx, nz), in clearances, where the shaft was last placed."""
         rows = self.mesh.shape[1]
         return np.asarray(self.coef[row.HM, :-1, :rows] / self.mesh.dx[:, None])
@@ -84,3 +85,15 @@ class WarmGap(GrowingGap):
         """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
         rows = self.mesh.shape[1]
         return np.asarray(self.coef[row.HINV, :-1, :rows] / self._across.shear)
+
+
+class ElasticWarmGap(WarmGap, ElasticGap):
+    """The same in a shell that pressure deforms."""
+
+
+class RoughElasticWarmGap(WarmGap, RoughElasticGap):
+    """The same in a shell that pressure deforms, between rough surfaces."""
+
+
+class RoughWarmGap(RoughShapedGap, WarmGap):
+    """The same between rough surfaces; `RoughShapedGap` says how far the shaft goes."""

@@ -44,9 +44,6 @@ class ShellContact(YieldingNodeLoad):
         mesh = gap.mesh
         self._compliance, self._shape = compliance, mesh.shape
         self._gap_of_cells = self._between.matrix(mesh.shape)
-        column = np.searchsorted(mesh.edges, self._angle) - 1
-        row = np.searchsorted(mesh.z_edges, self._z) - 1
-        self._cells = (column[:, None] * mesh.shape[1] + row).ravel()
         weights = np.outer(self._around, self._across).ravel()
         areas = np.outer(mesh.dx, mesh.dz).ravel()
         self._means = contact.asperities.scale * weights / areas[self._cells]
@@ -67,8 +64,10 @@ class ShellContact(YieldingNodeLoad):
         if not np.abs(alone).max() <= _LARGEST:
             return np.full_like(alone, np.nan)
         modes = self._modes
-        rigid = (modes.gaps(position, self._gap.curvature) - self._summits).ravel()
-        growth = self._shell.growth if unit and np.isfinite(self._shell.growth).all() else alone
+        rigid = modes.gaps(position, self._gap.curvature) - self._summits
+        rigid = (rigid + self._places[1].of(self._shell.expansion)).ravel()
+        pressed_open = self._shell.pressed
+        growth = pressed_open if unit and np.isfinite(pressed_open).all() else alone
         pressed, slope = self._asperities(rigid, growth)
         missing = alone + unit * self._compliance.growth(pressed) - growth
         for _ in range(_STEPS):
@@ -106,7 +105,7 @@ class ShellContact(YieldingNodeLoad):
         """Mean pressure of the cells (nx, nz), Pa, and its change by the gap of the nodes."""
         gaps = rigid + self._gap_of_cells @ growth.ravel()
         value, slope = np.zeros(gaps.size), np.zeros(gaps.size)
-        kernel.asperity_field(gaps, self._roughness, self._free, value, slope)
+        kernel.asperity_field(gaps, self._roughness, 0.0, self._free, value, slope)
         sums = np.bincount(self._cells, self._means * value, growth.size).astype(float)
         return sums.reshape(self._shape), self._means * slope
 

@@ -204,9 +204,7 @@ def _pairs(
     settled = getattr(film.heat, "stiffness", "") == "settled"
     yield "heat.stiffness", "settled", settled and pads, '"frozen" for pads that tilt'
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
-    yield "shell", film.shell, over_area, "None with heat over the area"
     yield "contact", film.contact, pads, "None for pads that tilt"
-    yield "contact", film.contact, over_area, "None with heat over the area"
     thick = film.liquid.pressure_coefficient > 0.0
     words = "None with a pressure_coefficient, by which the viscosity rises"
     yield "turbulence", film.turbulence, thick, words

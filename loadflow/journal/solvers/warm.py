@@ -83,8 +83,6 @@ def warm_rows(
 
     Raises
     ------
-    loadflow.errors.InputError
-        An elastic shell.
     loadflow.errors.SolverError
         If ``control.strict``, the first load without film or temperatures.
     """
@@ -224,7 +222,6 @@ def _prepared(
     bearing: JournalGeometry, options: Film, line: Line, rate: float
 ) -> tuple[Statics, EnergyEquation]:
     """Film and energy equation."""
-    require(options.shell is None, "shell", options.shell, "None with heat over the area")
     statics = Statics(bearing, options, line, rate)
     return statics, energy_of(statics)
 
