@@ -1,6 +1,7 @@
 """No turbine stands on the bearing positions of another without a word."""
 
 import importlib.resources
+import tomllib
 
 import pytest
 
@@ -126,6 +127,17 @@ def test_a_beam_without_sections_is_as_wide_as_the_narrowest_journal_bearing():
     scene, section = _beam_of(shaft=stated, bearings=bearings)
     assert section.outer_diameter == 1.2
     assert not any("beam" in said for said in scene.taken)
+
+
+def test_a_stated_section_that_fits_by_chance_is_not_told_as_one_that_is_taken():
+    open_one, _ = _beam_of(shaft={"two_point": {"beam": {}}})
+    assert any("shaft.two_point.beam" in said for said in open_one.taken)
+    as_resolved = make_scene(tomllib.loads(open_one.to_toml()))
+    assert as_resolved.shaft == open_one.shaft
+    assert as_resolved.digest() == open_one.digest()
+    assert not any("beam" in said for said in as_resolved.taken)
+    renamed = open_one.model_copy(update={"name": "other"})
+    assert any("shaft.two_point.beam" in said for said in renamed.taken)
 
 
 def test_a_beam_without_films_keeps_the_section_of_the_library():

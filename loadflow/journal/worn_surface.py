@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,7 +15,10 @@ from loadflow.journal.relief import Contour
 
 Array = NDArray[np.float64]
 
-_NEWTON, _CLOSE = 60, 1e-10  # steps of a shaft on its asperities, and what is left of their load
+_NEWTON, _CLOSE = 100, 1e-10  # steps of a shaft on its asperities, and what is left of their load
+_TRIES = 60  # lengths of one step
+_FAR = 0.5  # of a load, beyond which the shaft is first pushed along it
+_ROUNDING = 4 * float(np.finfo(float).eps)  # of a place, which is no finer known
 
 
 @dataclass(frozen=True)
@@ -86,27 +90,64 @@ class Surface:
 
     def _carried(self, group: Group, rough: Contact, depth: Array) -> tuple[Array, float]:
         """Pressure, Pa, at each point of a shaft whose asperities carry the load of a group."""
-        tips, way = rough.asperities, self._way
+        way, tips = self._way, rough.asperities
         tilt_x, tilt_y, bend_x, bend_y = group.line
         z = self.z
         lies = np.outer(way[0], tilt_y * z + 0.5 * bend_x * z**2)
         lies += np.outer(way[1], -tilt_x * z + 0.5 * bend_y * z**2)
-        bore, place = self._made + depth - lies, group.place.copy()
-        size, limit = float(np.hypot(*group.force)), tips.roughness
+        bore, size = self._made + depth - lies, float(np.hypot(*group.force))
+
+        def missing(place: Array) -> Array:
+            pressure = tips.pressure(bore - (place @ way)[:, None])
+            return np.asarray(group.force - self.area * (way @ pressure.sum(axis=1)))
+
+        place, left = group.place, missing(group.place)
+        if np.hypot(*left) > _FAR * size:
+            # the mean of neighbouring places may lie many roughnesses beside what carries
+            place = _pushed(missing, place, group.force / size, tips.roughness)
         for _ in range(_NEWTON):
-            gap = bore - (place @ way)[:, None]
-            pressure = tips.pressure(gap)
-            missing = group.force - self.area * (way @ pressure.sum(axis=1))
-            missed = float(np.hypot(*missing)) / size
-            if missed < _CLOSE:
-                return pressure, missed
+            gap, left = bore - (place @ way)[:, None], missing(place)
+            missed = float(np.hypot(*left)) / size
             slope = -self.area * tips.pressure_slope(gap).sum(axis=1)
             stiffness = (way * slope) @ way.T
-            step = np.linalg.lstsq(stiffness, missing, rcond=1e-12)[0]
-            length = float(np.hypot(*step))
-            if not np.isfinite(length) or length == 0.0:
-                step, length = group.force / size * limit, limit
-            place += step * min(1.0, limit / length)
+            known = _ROUNDING * float(np.abs(bore).max()) * float(np.trace(stiffness)) / size
+            if missed < max(_CLOSE, known):
+                return tips.pressure(gap), missed
+            step = np.linalg.lstsq(stiffness, left, rcond=1e-12)[0]
+            if not left @ step > 0:  # nothing touches: no stiffness
+                step = left / size * tips.roughness
+            place = _stepped(missing, place, step)
         raise SolverError(
             f"wear: asperities do not carry {size:.4g} N after {_NEWTON} steps, {missed:.2g} left"
         )
+
+
+def _pushed(missing: Callable[[Array], Array], place: Array, way: Array, roughness: float) -> Array:
+    """The place along the load, to a roughness, where asperities carry about all of it."""
+    low, high = -roughness, roughness
+    while missing(place + low * way) @ way < 0:
+        low *= 2.0
+    while missing(place + high * way) @ way > 0:
+        high *= 2.0
+    while high - low > roughness:
+        middle = 0.5 * (low + high)
+        if missing(place + middle * way) @ way > 0:
+            low = middle
+        else:
+            high = middle
+    return place + high * way
+
+
+def _stepped(missing: Callable[[Array], Array], place: Array, step: Array) -> Array:
+    """The place along a step, longer or shorter, that leaves half of what is missing at most.
+
+    What asperities store is convex: what is missing along a line falls from its start on.
+    """
+    start, low, high, length = float(missing(place) @ step), 0.0, np.inf, 1.0
+    for _ in range(_TRIES):
+        left = float(missing(place + length * step) @ step)
+        if abs(left) <= 0.5 * start:
+            break
+        low, high = (length, high) if left > 0 else (low, length)
+        length = 2.0 * length if high == np.inf else 0.5 * (low + high)
+    return place + length * step

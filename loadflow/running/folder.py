@@ -236,6 +236,7 @@ def prepare(
         MANIFEST.key: MANIFEST.version,
         "wanted": scene.digest(),
         "refined": refined,
+        "taken": scene.taken,
         "stages": manifest.get("stages", {}) | {step.name: step.digest for step in plan.steps},
         "rungs": {
             step.name: {"rung": step.rung, "error": step.error or "not measured"}

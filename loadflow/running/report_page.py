@@ -130,11 +130,12 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         else f"{len(manifest['inputs'])} files"
     )
     short = manifest.get("shortfalls", [])
+    taken = manifest.get("taken", scene.taken)  # by the run: a resolved scene states all of it
     return {
         **({"Not accurate enough": "; ".join(short)} if short else {}),
         "Turbine": _turbine_fact(scene),
         "Loads": source,
-        **({"Taken from elsewhere": "; ".join(scene.taken)} if scene.taken else {}),
+        **({"Taken from elsewhere": "; ".join(taken)} if taken else {}),
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Tables as CSV": f"in the folder {TABLES} beside this page",

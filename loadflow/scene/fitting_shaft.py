@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, Self
 
-from pydantic import ValidationError
+from pydantic import (
+    BaseModel,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    ValidationError,
+    model_validator,
+)
 
 from loadflow.scene.journal import Journal
 from loadflow.scene.shaft import SWINGING
@@ -49,11 +55,41 @@ def with_fitting_beams(shaft: Any, journal: Any) -> Any:
     return shaft | beams
 
 
-def fitted(shaft: Mapping[str, Any], journal: Journal) -> Iterator[str]:
-    """Say which beams of a resolved shaft, as plain data, have the section that fits."""
+class WithFittingBeams(BaseModel):
+    """A scene that knows which beams of its shaft stated no section as it was read.
+
+    It is no key: a scene as resolved states the sections, and its digest is that of them.
+    """
+
+    _open_beams: tuple[str, ...] = PrivateAttr(default=())
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _remember_open_beams(cls, data: Any, read: ModelWrapValidatorHandler[Self]) -> Self:
+        shaft = data.get("shaft") if isinstance(data, dict) else None
+        shaft = shaft if isinstance(shaft, dict) else {}
+        scene = read(data)
+        kinds = tuple(kind for kind, options in shaft.items() if _is_open(kind, options))
+        scene._open_beams = kinds or scene._open_beams
+        return scene
+
+
+def fitted(shaft: Mapping[str, Any], journal: Journal, open_beams: Sequence[str]) -> Iterator[str]:
+    """Say which beams of a resolved shaft, as plain data, have the section that fits.
+
+    Parameters
+    ----------
+    shaft : mapping
+        By kind of suspension.
+    journal : Journal
+        The bearings.
+    open_beams : sequence of str
+        Suspensions whose beams stated no section.
+    """
     diameter = narrowest(journal)
-    for kind, options in shaft.items():
-        beam = options.get("beam") if options and kind != "moment" else None
+    for kind in open_beams:
+        options = shaft.get(kind)
+        beam = options.get("beam") if options else None
         if beam and beam["sections"] == [_section(diameter)]:
             yield (
                 f"shaft.{kind}.beam: {diameter:.4g} m with a bore of {BORE * diameter:.4g} m, as "

@@ -26,7 +26,7 @@ from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
 from loadflow.scene.dynamics import Dynamics, check_dynamics
 from loadflow.scene.environment import Environment, surrounded
-from loadflow.scene.fitting_shaft import fitted, with_fitting_beams
+from loadflow.scene.fitting_shaft import WithFittingBeams, fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime import Lifetime, check_per_year
@@ -57,7 +57,7 @@ Positive = Annotated[float, Field(gt=0)]
 _ROW = np.zeros((1, 2))
 
 
-class Scene(Section, BaseModel):
+class Scene(Section, WithFittingBeams, BaseModel):
     """What is wanted, and from what; see the modules of the sections for units.
 
     Attributes
@@ -267,7 +267,7 @@ class Scene(Section, BaseModel):
         name = self.turbine.name
         films = self.journal if self.wants("journal") else None
         rolling = self.rolling if self.wants("rolling") else None
-        beams = fitted(shaft, films) if films is not None else ()
+        beams = fitted(shaft, films, self._open_beams) if films is not None else ()
         return [*taken(name, shaft), *beams, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:

@@ -21,6 +21,7 @@ from loadflow.journal import (
     Wear,
     wear_bearing,
 )
+from loadflow.journal.worn_surface import Group, Surface
 from loadflow.scene.scene import make_scene
 from loadflow.tribology import Archard, AsperityContact, Fleischer, RunningIn, ShaftImprint
 
@@ -159,6 +160,23 @@ def test_a_tilted_shaft_wears_the_edge():
     level = found.bearing.equilibrium((LOAD, 0.0), 0.1, found.film, tilt=(0.0, 5e-5))
     before = BEARING.equilibrium((LOAD, 0.0), 0.1, film(), tilt=(0.0, 5e-5))
     assert level.contact_pressure < before.contact_pressure
+
+
+@pytest.mark.parametrize("roughness", [1e-7, 0.56e-6])
+def test_a_tilted_shaft_finds_the_asperities_that_carry_it_from_far_beside_them(roughness):
+    """A main bearing of 2 m: hundreds of roughnesses off."""
+    main = JournalBearing(diameter=2.0, width=1.4, relative_clearance=1.1e-3)
+    surface, draw = Surface(main, 720, 8), np.random.default_rng(5)
+    tips = AsperityContact(roughness=roughness, contact_modulus=46.5e9, factor=1e-3)
+    for _ in range(20):
+        size, way = 10 ** draw.uniform(-2, 6), draw.normal(scale=0.3, size=2)
+        force, place = (np.array([np.cos(angle), np.sin(angle)]) for angle in way)
+        line = draw.normal(scale=(2e-4, 2e-4, 1e-4, 1e-4))
+        group = Group(size * force, 0.95 * main.clearance * place, 1.0, line)
+        pressed, missed = surface.pressed([group], Contact(tips, 0.1), np.zeros((720, 8)))
+        across = np.stack([np.cos(surface.angle), np.sin(surface.angle)]) @ pressed.sum(axis=1)
+        assert surface.area * across == pytest.approx(size * force, abs=2e-9 * size)
+        assert missed < 1e-9
 
 
 def test_no_contact_wears_nothing():
