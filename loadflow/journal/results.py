@@ -378,7 +378,7 @@ class FilmField(FilmState):
     angle : array (…, nx)
         Angle of the cell centres from the first axis toward the second, rad.
     z : array (nz,)
-        Axial position of the cell centres from mid-plane, m.
+        Axial position of the cell centres from mid-plane, m; on "reduced" that of its points.
     eccentricity_ratio, minimum_film, maximum_pressure, friction_power, side_flow, supply_flow, \
 supply_power, groove_flow, groove_pressure, starved, total_fill, stiffness, damping, converged, \
 iterations, residual, moment, tilt, pad_tilt, shell_deformation, contact_force, contact_pressure, \

@@ -127,7 +127,13 @@ RUNGS: dict[str, Rung] = {
             frozenset({"heat", "inlet", "grading"}),
             _WARMING | {"inlet", "grading"},
         ),
-        Rung("reduced", f"{_MODELS}.reduced", _REDUCED, _REDUCED | _WARMING | {"periodic"}),
+        Rung(
+            "reduced",
+            f"{_MODELS}.reduced",
+            _REDUCED,
+            _REDUCED | _WARMING | {"periodic"},
+            _REDUCED - _HEAT - {"moment"},
+        ),
         Rung(
             "grid",
             f"{_MODELS}.grid",

@@ -134,9 +134,9 @@ def test_hahn_has_no_inlet_line():
         BEARING.equilibrium(LOAD, 100.0, OIL, rung="hahn", inlet="widest gap")
 
 
-def test_only_the_grid_has_a_field_of_pressure():
-    with pytest.raises(InputError, match=r'rung = "reduced" .* "grid" for a field'):
-        BEARING.pressure((0.0, 0.0), 100.0, film_for("reduced"))
+def test_a_rung_without_a_field_of_pressure_names_those_that_have_one():
+    with pytest.raises(InputError, match=r'rung = "map" .* "reduced" or "grid" for a field'):
+        BEARING.pressure((0.0, 0.0), 100.0, film_for("map"))
 
 
 def test_a_rung_is_one_object_and_one_row(monkeypatch):

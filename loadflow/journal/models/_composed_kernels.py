@@ -36,6 +36,7 @@ def balance(film, work, wedge, rate):
     m, points, columns = film.nodes.slopes.shape[1], film.nodes.z.size, work.columns
     p, fill, carried, slack = work.state[P], work.state[FILL], work.state[LOAD], work.state[SLACK]
     mean, cube, flows, drags = work.gap[MEAN], work.gap[CUBE], work.face[FLOW], work.face[DRAG]
+    opens, squeeze = work.gap[OPEN], work.squeeze
     flow, row, sum_x, sum_y = work.row[0], work.row[1], work.row[2], work.row[3]
     up, up_right = max(wedge, 0.0), min(wedge, 0.0)  # from upstream
     for i in range(nx):
@@ -48,7 +49,8 @@ def balance(film, work, wedge, rate):
             put(work.slope, here + at, slope)
             put(flow, at, slope * take(cube, here + at) * across)
         for at in range(0, wide, LANES):
-            held = take(fill, here + at) * take(mean, here + at) * rate
+            grows = take(mean, here + at) * rate + take(opens, here + at) * take(squeeze, here + at)
+            held = take(fill, here + at) * grows
             held = (held - take(work.liquid, here + at)) * (ring.slope * step)
             left = held * take(lanes.weights, at) + take(slack, here + at) * take(lanes.inner, at)
             for k in range(points):
@@ -161,7 +163,8 @@ def magnitudes(film, work, wedge, rate):
             drags = face[DRAG, left, k] + face[DRAG, i, k]
             flows = face[FLOW, left, k] / film.ring.apart[left]
             flows += face[FLOW, i, k] / film.ring.apart[i]
-            total = film.ring.slope * step * weights[k] * rate * fill[i, k] * gap[MEAN, i, k]
+            total = rate * gap[MEAN, i, k] + abs(work.squeeze[i, k])
+            total *= film.ring.slope * step * weights[k] * fill[i, k]
             total += weights[k] * (
                 abs(wedge) * drags + flows * max(abs(p[i, k]), abs(p[left, k]), abs(p[right, k]))
             )
@@ -223,11 +226,13 @@ def matrix(film, work, wedge, rate):
             put(system.left, right, to_left * -1.0)
             put(system.right, here, to_right)
             if i >= 0:
-                squeeze = own * (ring.slope * ring.width[i] * rate)
-                held = take(mean, here) * take(df, here)
+                squeeze = take(mean, here) * rate + take(opens, here) * take(work.squeeze, here)
+                held = squeeze * take(df, here)
                 if give > 0.0:
-                    held = held + take(fill, here) * take(opens, here) * take(grows, here) * give
-                held = held * squeeze + take(slacks, here) * take(lanes.inner, at)
+                    shell = take(opens, here) * take(grows, here) * (give * rate)
+                    held = held + take(fill, here) * shell
+                held = held * own * (ring.slope * ring.width[i])
+                held = held + take(slacks, here) * take(lanes.inner, at)
                 put(scaled, at, held + to_left - before)
                 for k in range(at, min(m, at + LANES)):
                     system.block[i, k, k] += scaled[0, k]

@@ -18,6 +18,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     FACE_PLANES,
     FLOW,
     MEAN,
+    OPEN,
     PLANES,
     narrowest,
     opened,
@@ -137,7 +138,9 @@ def _outflow(film, work, wedge, rate):
             if ring.groove[i] or work.slope[i, first + e] == 0.0:  # the latter beside a pad let go
                 continue
             along = work.face[FACE_PLANES, i, first + e] - work.face[FACE_PLANES, before, first + e]
-            held = rate * work.state[FILL, i, first + e] * work.gap[MEAN, i, first + e]
+            held = rate * work.gap[MEAN, i, first + e]
+            held += work.gap[OPEN, i, first + e] * work.squeeze[i, first + e]
+            held *= work.state[FILL, i, first + e]
             held = (held - work.liquid[0, i, first + e]) * ring.slope * ring.width[i]
             flow = drawn * along + nodes.weights[first + e] * held
             for k in range(nodes.z.size):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from loadflow.journal.cavitation import FILL
 from loadflow.journal.models._compile import once
-from loadflow.journal.models._composed_gap_kernels import MEAN
+from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN
 
 
 @once
@@ -15,6 +15,7 @@ def hold_points(film, work, first, last, rate):
     """
     nx, m, largest = film.ring.cos.size, film.nodes.slopes.shape[1], 0.0
     fill, mean, columns = work.state[FILL], work.gap[MEAN], work.columns
+    opens, squeeze = work.gap[OPEN], work.squeeze
     if first == 0:
         work.fed[:] = 0.0
     for column in range(first, last):
@@ -24,7 +25,8 @@ def hold_points(film, work, first, last, rate):
                 j = film.held.grooves[i, k]
                 if j >= 0:
                     if column == 0:
-                        stored = rate * fill[i, k] * mean[i, k] - work.liquid[0, i, k]
+                        stored = rate * mean[i, k] + opens[i, k] * squeeze[i, k]
+                        stored = stored * fill[i, k] - work.liquid[0, i, k]
                         stored *= width * film.nodes.weights[k]
                         work.fed[j] += columns[0, i, k] - stored
                     columns[column, i, k] = 0.0

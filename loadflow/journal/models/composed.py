@@ -49,17 +49,14 @@ def equilibrium(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the load.
     """
-    around, across = options.cells
-    may = control.refine and options.may_grade
-    gives = options.shell is not None
-    most = _MOST_AROUND if gives else _MOST_RIGID
-    finer_ones = may and (gives or options.contact is not None) and around < most
-    films = _on_cells(bearing, options, force, speed, line, control, finer_ones and gives)
+    most = finer_around(options, control)
+    may_leave = most is not None and options.shell is not None
+    films = _on_cells(bearing, options, force, speed, line, control, may_leave)
     answer, found, left, none = films.answer, films.found, films.left, films.none
-    if finer_ones:
+    if most is not None:
         again = np.flatnonzero(films.thin | ~(found | none))
         if again.size:
-            finer = replace(options, grid=(most, across))
+            finer = replace(options, grid=(most, options.cells[1]))
             more = _on_cells(bearing, finer, force[again], speed[again], line.at(again), control)
             _take(answer, again, more)
             left[again] = np.where(more.found, more.left, left[again])
@@ -67,6 +64,20 @@ def equilibrium(
     if (left & found).any():
         warn_unresolved(left & found, f"load {int((left & found).argmax())}")
     return answer, found, none
+
+
+def finer_around(options: Film, control: Limits) -> int | None:
+    """Cells around on which a film is tried that those asked for do not resolve; None: no others.
+
+    Only a shell that gives way, or asperities, leave a film on them that a finer grid need not
+    find.
+    """
+    if not (control.refine and options.may_grade):
+        return None
+    if options.shell is None and options.contact is None:
+        return None
+    most = _MOST_RIGID if options.shell is None else _MOST_AROUND
+    return most if options.cells[0] < most else None
 
 
 def _on_cells(

@@ -248,6 +248,8 @@ class ComposedWork(NamedTuple):
         Unknowns: current, at the last two times, and before a step.
     liquid : array (3, nx, L)
         F H of the cells: storage of earlier times, then the last two times.
+    squeeze : array (nx, L)
+        Growth of the gap of the mean planes by a given velocity of the shaft, 1/s; else 0.
     state : array (8, nx, L)
         As in `_kernels.apply_law`.
     gap : array (4, nx, L)
@@ -300,6 +302,7 @@ class ComposedWork(NamedTuple):
     last: Array
     trial: Array
     liquid: Array
+    squeeze: Array
     state: Array
     gap: Array
     gap_slope: Array
@@ -334,6 +337,7 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         last=aligned(np.zeros(shape)),
         trial=aligned(np.zeros(shape)),
         liquid=aligned(np.zeros((3, *shape))),
+        squeeze=aligned(np.zeros(shape)),
         state=aligned(np.zeros((8, *shape))),
         gap=aligned(np.ones((4, *shape))),
         gap_slope=aligned(np.zeros(shape)),

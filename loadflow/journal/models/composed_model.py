@@ -285,10 +285,12 @@ def build(
     level: int = 0,
     *,
     at_rest: bool = False,
+    across: int | None = None,
 ) -> ComposedFilm:
     """Put a film on cells around and points across, of which each `level` has more.
 
     What a path asks on further points is whether few would do; a film `at_rest` whether these do.
+    There are `across` of them beside no groove, if they are told.
     """
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
@@ -296,7 +298,8 @@ def build(
     layout, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
     more = 0 if _resolves_relief(bearing, layout(half, points[0]).z) else 1
     nodes = nodes_beside(options.supply, bearing, whole)
-    nodes = nodes or layout(half, points[level + more], None if at_rest else points[more])
+    few = None if at_rest else points[more]
+    nodes = nodes or layout(half, across or points[level + more], few)
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options.cells[0])
@@ -339,10 +342,15 @@ def levels_at_rest(options: Film) -> range:
     return range(len(POINTS) - 1) if options.supply is None else levels_of(options)
 
 
-def unknowns_on(unknowns: Array, here: ComposedFilm, there: ComposedFilm) -> Array:
-    """Unknowns (nx, L) of the film `here` at the points of another level."""
+def unknowns_on(
+    unknowns: Array, here: ComposedFilm, there: ComposedFilm, edge: float | None = None
+) -> Array:
+    """Unknowns (nx, L) of the film `here` at the points of another level.
+
+    So are other values, that are `edge` at the bearing ends.
+    """
     few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
-    moved = there.cold()
+    moved = there.cold() if edge is None else np.full(there.work.u.shape, edge)
     across = between_points(few, many, there.whole)
     moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
     return moved

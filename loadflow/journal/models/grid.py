@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
+from loadflow.errors import LoadflowError, SolverError
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -184,7 +185,52 @@ def solve_on_grid(
         )
     except SolverError as error:
         raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
-    spent = answer["iterations"][index]  # before it came here
+    _take(answer, index, state)
+
+
+def hold_on_grid(
+    bearing: JournalGeometry,
+    film: Film,
+    position: Array,
+    velocity: Array,
+    speed: Array,
+    line: Line,
+    index: int,
+    answer: dict[str, Any],
+    z: Array,
+    limits: Limits,
+) -> None:
+    """The same of the field at a position, shown at the angles of the answer and at `z`, m.
+
+    Raises
+    ------
+    InputError
+        The shaft touches the bore.
+    SolverError
+        If ``limits.strict`` and the grid has no answer either.
+    """
+    one = np.array([index])
+    given = bearing, film, position[one], velocity[one], speed[one], line.at(one)
+    own = Limits(_TOLERANCE, _STEPS, limits.strict)
+    try:
+        found, places = pressure(*given, own)
+    except LoadflowError as error:
+        said = re.sub(r"^(film|eccentricity) 0:", rf"\1 {index}:", str(error))
+        raise type(error)(said) from error
+    state = {name: values[0] for name, values in found.items()}
+    for name in ("pressure", "fill", "deformation", "gap"):
+        rows = np.array([np.interp(z, places, values) for values in state[name]])
+        around = [
+            np.interp(answer["angle"][index], state["angle"], values, period=2.0 * np.pi)
+            for values in rows.T
+        ]
+        state[name] = np.transpose(around)
+    _take(answer, index, state | {"angle": answer["angle"][index]})
+
+
+def _take(answer: dict[str, Any], index: int, state: dict[str, Any]) -> None:
+    """Replace a row of an answer; Newton steps that it took before count, too."""
+    spent = answer["iterations"][index]
     for name, values in answer.items():
         values[index] = state[name]
     answer["iterations"][index] += spent

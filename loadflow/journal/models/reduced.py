@@ -23,7 +23,13 @@ from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed, composed_closed, composed_path, grid
+from loadflow.journal.models import (
+    composed,
+    composed_closed,
+    composed_path,
+    composed_position,
+    grid,
+)
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.finer_orbit import on_enough_cells
@@ -123,6 +129,29 @@ def _with_the_grid(
     for index in np.flatnonzero(~known):
         solve_on_grid(bearing, options, int(index), line, answer, control)
     return answer
+
+
+def pressure(
+    bearing: JournalGeometry,
+    options: Film,
+    position: Array,
+    velocity: Array,
+    speed: Array,
+    line: Line,
+    control: Limits,
+) -> tuple[dict[str, Any], Array]:
+    """Films at given positions; one that fails or is not resolved here is solved on the grid.
+
+    So are all on pads that tilt, as at rest.
+    """
+    given = bearing, options, position, velocity, speed
+    if Bore.of(bearing).pads:
+        return grid.pressure(*given, line, control)
+    across = None if composed.composes(bearing, options, line) else POINTS
+    answer, z = composed_position.pressure(*given, line, control, across)
+    for n in np.flatnonzero(~answer["converged"]):
+        grid.hold_on_grid(*given, line, int(n), answer, z, control)
+    return answer, z
 
 
 def orbit(
