@@ -37,6 +37,7 @@ from .housings import Flange as Flange
 from .housings import HousedShell as HousedShell
 from .housings import InfluenceShell as InfluenceShell
 from .lubricant import Lubricant as Lubricant
+from .pad_heat import PadHeat as PadHeat
 from .pad_results import ConicalResult as ConicalResult
 from .pad_results import PadResult as PadResult
 from .pad_results import PairResult as PairResult
@@ -56,6 +57,7 @@ from .shells import LinedShell as LinedShell
 from .shells import LocalShell as LocalShell
 from .shells import MatrixShell as MatrixShell
 from .shells import ThickShell as ThickShell
+from .straight_pads import RectangularThrustBearing as RectangularThrustBearing
 from .stribeck import stribeck as stribeck
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
@@ -66,9 +68,9 @@ from .supply import Supply as Supply
 from .surfaces import Flat as Flat
 from .surfaces import Step as Step
 from .surfaces import Taper as Taper
-from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
 from .turbulence import Turbulence as Turbulence
+from .warm_pads import WarmThrustResult as WarmThrustResult
 from .wear import Cycle as Cycle
 from .wear import Wear as Wear
 from .wear import wear_bearing as wear_bearing

@@ -14,7 +14,7 @@ from loadflow.journal.film.discretise import operating_points
 from loadflow.journal.film_model import Film, Keywords, film_and_control
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.grid_bounds import warn_if_path_unresolved, warn_if_unresolved
-from loadflow.journal.heat import FilmHeat, Heat
+from loadflow.journal.heat import Entering
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
@@ -361,6 +361,6 @@ class JournalBearing(JournalGeometry):
         return path
 
 
-def _hottest(heat: Heat | FilmHeat, temperatures: Array) -> Lubricant:
+def _hottest(heat: Entering, temperatures: Array) -> Lubricant:
     """The oil of a film at the largest of `temperatures`, K; as it enters, if there is none."""
     return heat.lubricant(float(np.nanmax([heat.inlet_temperature, *temperatures])))

@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from loadflow.errors import SolverError
 from loadflow.journal.film.cell_error import drag_error
 from loadflow.journal.film_model import Control, Film, Keywords
@@ -27,6 +30,8 @@ from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
 
 _ROUNDS = 60
 
@@ -151,6 +156,7 @@ class DoubleThrustBearing:
         speed: float,
         film: Film | Lubricant | None = None,
         *more: Any,
+        tilt: ArrayLike = (0.0, 0.0),
         control: Control | None = None,
         **keywords: Unpack[Keywords],
     ) -> DoubleThrustResult:
@@ -159,7 +165,10 @@ class DoubleThrustBearing:
         Parameters
         ----------
         gap : float
-            Film of the front row, m, between 0 and the play.
+            Film of the front row on the axis, m, between 0 and the play.
+        tilt : array_like (2,)
+            Rotation of the collar about the first and the second axis, rad: the gap of the front
+            row grows by tilt[0] y − tilt[1] x, that of the other one falls by it.
         speed, film, control, **keywords
             As of `ThrustBearing.pressure`.
 
@@ -170,10 +179,11 @@ class DoubleThrustBearing:
         loadflow.errors.SolverError
             Pads that find no tilt without moment.
         """
-        film, control = asked(film, more, control, keywords)
+        film, control = asked(film, more, control, keywords, knows_heat=True)
         require(0 < gap < self.play, "gap", gap, f"m, between 0 and the play of {self.play:g}")
-        front = self.front.pressure(gap, speed, film, control=control)
-        back = self.back.pressure(self.play - gap, speed, film, control=control)
+        turned = finite("tilt", tilt, 2)
+        front = self.front.pressure(gap, speed, film, tilt=turned, control=control)
+        back = self.back.pressure(self.play - gap, speed, film, tilt=-turned, control=control)
         return DoubleThrustResult(
             front=front,
             back=back,
@@ -197,6 +207,7 @@ class DoubleThrustBearing:
         speed: float,
         film: Film | Lubricant | None = None,
         *more: Any,
+        tilt: ArrayLike = (0.0, 0.0),
         control: Control | None = None,
         **keywords: Unpack[Keywords],
     ) -> DoubleThrustResult:
@@ -209,6 +220,8 @@ class DoubleThrustBearing:
         ----------
         force : float
             Along the axis, N; > 0 presses the collar on the front row.
+        tilt : array_like (2,)
+            As in `pressure`, held.
         speed, film, control, **keywords
             As of `ThrustBearing.equilibrium`.
 
@@ -221,11 +234,11 @@ class DoubleThrustBearing:
         loadflow.errors.InputError
             Values that are not finite or out of range.
         loadflow.errors.SolverError
-            No film carries the force, with the reason.
+            No film carries the force, with the reason; no room for the tilted collar.
         """
-        film, control = asked(film, more, control, keywords)
+        film, control = asked(film, more, control, keywords, knows_heat=True)
         force, speed = finite("force", force), finite("speed", speed)
-        limits = limits_of(control)
+        limits, turned = limits_of(control), finite("tilt", tilt, 2)
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         if speed == 0.0:
             raise SolverError(f"{head}: {AT_REST}")
@@ -234,15 +247,20 @@ class DoubleThrustBearing:
         def at(inverse: float) -> DoubleThrustResult:
             film_there = 1.0 / math.sqrt(inverse)
             gap = film_there if pressed > 0 else self.play - film_there
-            return self.pressure(gap, speed, film, control=control)
+            return self.pressure(gap, speed, film, tilt=turned, control=control)
 
         def answer(found: DoubleThrustResult, error: float, converged: bool) -> DoubleThrustResult:
             residual = max(error, found.residual)
             return replace(found, residual=residual, iterations=spent, converged=converged)
 
-        low = (1.0 / ((1.0 - _CLOSED) * self.play)) ** 2
-        high = (1.0 / (_CLOSED * self.play)) ** 2
+        rows = (self.front, self.back) if pressed > 0 else (self.back, self.front)
+        ends = [max(_CLOSED * self.play, self._reach(row, turned)) for row in rows]
+        if sum(ends) >= self.play:
+            raise SolverError(f"{head}: the play of {self.play:g} m has no room for the tilt")
+        low, high = (1.0 / (self.play - ends[1])) ** 2, (1.0 / ends[0]) ** 2
         x, spent = (2.0 / self.play) ** 2, 0
+        if not low < x < high:
+            x = math.sqrt(low * high)
         for _ in range(_ROUNDS):
             found = at(x)
             spent += found.iterations
@@ -261,3 +279,8 @@ class DoubleThrustBearing:
             most = f"{pressed * found.force:.4g} N at a film of {1e6 / math.sqrt(x):.3g} µm"
             raise SolverError(f"{head}: no film carries it; {most}")
         return answer(found, error, False)
+
+    def _reach(self, row: ThrustBearing, tilt: Array) -> float:
+        """Film on the axis at which a tilted collar nearly touches the outer end of a row, m."""
+        slope = float(np.hypot(*tilt))
+        return (1.0 + _CLOSED) * slope * row.outer_radius

@@ -16,6 +16,7 @@ from loadflow.journal.cavitation import CavitationLaw, Reynolds
 from loadflow.journal.contact import Contact
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.lubricant import Lubricant
+from loadflow.journal.pad_heat import PadHeat
 from loadflow.journal.rungs import RUNGS, check_rung
 from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
@@ -41,7 +42,7 @@ class FilmKeywords(TypedDict, total=False):
     grid: tuple[int, int] | None
     grading: Grading
     shell: Shell | None
-    heat: Heat | FilmHeat | None
+    heat: Heat | FilmHeat | PadHeat | None
     contact: Contact | None
     rung: str
     turbulence: Turbulence | None
@@ -86,9 +87,9 @@ class Film:
         graded mesh.
     shell : LocalShell, LinedShell, ThickShell, MatrixShell, HousedShell or InfluenceShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
-    heat : Heat or FilmHeat, optional
+    heat : Heat, FilmHeat or PadHeat, optional
         Oil and cooling: the film is as warm as its own friction makes it, of one temperature or of
-        one that changes over its area; isothermal by default.
+        one that changes over its area; `PadHeat` is that of thrust bearings. Isothermal by default.
     contact : Contact, optional
         Asperities, which share load, flow and friction with the oil; smooth surfaces by default.
     rung : {"grid", "reduced", "map", "chart", "table", "butenschoen", "holland", "hahn"}
@@ -122,7 +123,7 @@ class Film:
     grid: tuple[int, int] | None = None
     grading: Grading = "auto"
     shell: Shell | None = None
-    heat: Heat | FilmHeat | None = None
+    heat: Heat | FilmHeat | PadHeat | None = None
     contact: Contact | None = None
     rung: str = "grid"
     turbulence: Turbulence | None = None

@@ -25,13 +25,14 @@ _OF_CONTACTS = ("base", "critical_stress", "critical_pressure", "limiting_slope"
 
 
 @dataclass(frozen=True)
-class _Entering:
+class Entering:
     """The oil that enters a film."""
 
     oil: str | Oil | ExponentialOil = "mineral-vg-320"
     inlet_temperature: Annotated[float, Gt(200)] = 313.15
 
     over_area: ClassVar[bool]
+    of_pads: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         check_fields(self)
@@ -127,7 +128,7 @@ class Growth:
 
 
 @dataclass(frozen=True)
-class Heat(_Entering):
+class Heat(Entering):
     """Oil and cooling of a bearing: one temperature of the whole film by its heat balance.
 
     Attributes
@@ -302,7 +303,7 @@ class RingGrowth:
 
 
 @dataclass(frozen=True)
-class FilmHeat(_Entering):
+class FilmHeat(Entering):
     """Oil and cooling of a film whose temperature changes over its area, and across the gap.
 
     An energy equation of the film, ρ c_p ∇·(q T) = dissipation − conduction, by upwind finite

@@ -31,11 +31,15 @@ _ROTATIONS = np.array([3, 4])
 
 
 def asked(
-    film: Film | Lubricant | None, more: tuple[Any, ...], control: Control | None, words: Keywords
+    film: Film | Lubricant | None,
+    more: tuple[Any, ...],
+    control: Control | None,
+    words: Keywords,
+    knows_heat: bool = False,
 ) -> tuple[Film, Control]:
     """Film and control of a verb, of which films of pads and cones know all that is asked for."""
     film, control = film_and_control(film, more, control, words)
-    return check_film(film), control
+    return check_film(film, knows_heat), control
 
 
 def limits_of(control: Control) -> Limits:

@@ -290,15 +290,22 @@ def even_pads(pads: int, pad_angle: float, first_pad: float) -> tuple[float, ...
     return tuple(first_pad + 0.5 * pad_angle + pitch * number for number in range(int(pads)))
 
 
-def check_film(film: Film) -> Film:
+def check_film(film: Film, knows_heat: bool = False) -> Film:
     """The film, if it asks for nothing that films of pads and cones do not know.
+
+    Those that know heat know that of pads.
 
     Raises
     ------
     loadflow.errors.InputError
         Names what they do not know; pressures at which no oil enters.
     """
-    for name in ("supply", "shell", "heat", "contact", "turbulence"):
+    kinds = (
+        "a PadHeat or None for thrust bearings" if knows_heat else "None for pads and cones here"
+    )
+    warm = film.heat is None or (knows_heat and film.heat.of_pads)
+    require(warm, "heat", film.heat, kinds)
+    for name in ("supply", "shell", "contact", "turbulence"):
         value = getattr(film, name)
         require(value is None, name, value, "None for pads and cones")
     rising = film.liquid.pressure_coefficient

@@ -1,4 +1,4 @@
-"""Thrust bearings: tapered lands, steps and tilting pads on a plane ring, and straight pads."""
+"""Thrust bearings: tapered lands, steps and tilting pads on a plane ring."""
 
 from __future__ import annotations
 
@@ -28,7 +28,8 @@ from loadflow.journal.pads import LIFTS, Pads, Pivot, even_pads, finite
 from loadflow.journal.solvers.assembly import Assembly
 from loadflow.journal.solvers.assembly_error import relative_errors
 from loadflow.journal.solvers.assembly_member import BODY, AssemblyState
-from loadflow.journal.surfaces import Cone, Cut, Strip, Surface, Taper
+from loadflow.journal.surfaces import Cone, Cut, Surface, Taper
+from loadflow.journal.warm_pads import balanced
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -38,14 +39,16 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _AXIAL = np.array([2])
-_WEDGE = 0.75  # of a pad's length, if nothing is said
+WEDGE = 0.75
+"""Share of a pad's length over which it falls, if nothing is said."""
+
 _ROUNDS = 12  # gaps tried for a first one
 _NEAR = 1.5  # ratio of load and force up to which a gap is near enough for Newton
 _FAINT = 1e-9  # of the load of ordinary pads, that is none
 _LOAD_NUMBER = 0.05  # W h²/(η U L² B) of an ordinary pad, for the first gap of all
 
 
-class _PadThrust(PadBearing):
+class PadThrust(PadBearing):
     """What thrust bearings on a ring and those of straight pads share."""
 
     _axes: ClassVar[int] = 1
@@ -101,7 +104,10 @@ class _PadThrust(PadBearing):
         loadflow.errors.SolverError
             Pads that find no tilt without moment.
         """
-        film, control = asked(film, more, control, keywords)
+        film, control = asked(film, more, control, keywords, knows_heat=True)
+        if film.heat is not None:
+            held: dict[str, Any] = {"velocity": velocity, "tilt": tilt, "control": control}
+            return balanced(lambda own: self.pressure(gap, speed, own, **held), film, control)
         gap, speed, velocity = (
             finite("gap", gap),
             finite("speed", speed),
@@ -154,7 +160,10 @@ class _PadThrust(PadBearing):
         loadflow.errors.SolverError
             No film carries the force, with the reason.
         """
-        film, control = asked(film, more, control, keywords)
+        film, control = asked(film, more, control, keywords, knows_heat=True)
+        if film.heat is not None:
+            held: dict[str, Any] = {"moment": moment, "tilt": tilt, "control": control}
+            return balanced(lambda own: self.equilibrium(force, speed, own, **held), film, control)
         force, speed = finite("force", force), finite("speed", speed)
         require(force > 0, "force", force, "must be > 0 N: it presses the runner on the pads")
         load = np.array([0.0, 0.0, -force])
@@ -312,7 +321,7 @@ class _PadThrust(PadBearing):
 
 
 @dataclass(frozen=True)
-class ThrustBearing(_PadThrust):
+class ThrustBearing(PadThrust):
     """Thrust bearing of equal sector pads on a plane ring.
 
     In the sense of motion the film falls from ``gap + taper`` at the inlet to ``gap`` over the
@@ -352,7 +361,7 @@ class ThrustBearing(_PadThrust):
     outer_radius: float
     pad_angle: float
     taper: float = 0.0
-    wedge: float = _WEDGE
+    wedge: float = WEDGE
     first_pad: float = 0.0
     profile: Cut | None = None
     pivot: Pivot | None = None
@@ -366,7 +375,7 @@ class ThrustBearing(_PadThrust):
         Taper(self.taper, self.wedge)
         if self.profile is not None:
             require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
-            require(self.wedge == _WEDGE, "wedge", self.wedge, "left out where a profile is given")
+            require(self.wedge == WEDGE, "wedge", self.wedge, "left out where a profile is given")
 
     def idle(self) -> Iterator[tuple[str, str]]:
         """Fields without effect beside the others, and why."""
@@ -377,64 +386,7 @@ class ThrustBearing(_PadThrust):
     def row(self) -> Pads:
         """The pads."""
         surface: Surface = Cone(0.5 * math.pi, self.inner_radius, self.outer_radius)
-        return _row(self, surface, self.pad_angle)
-
-
-@dataclass(frozen=True)
-class RectangularThrustBearing(_PadThrust):
-    """Thrust bearing of straight rectangular pads round the axis (ISO 12131's idealisation).
-
-    Attributes
-    ----------
-    pads : int
-        Number, ≥ 1.
-    mean_radius : float
-        Distance of the pads' middles from the axis, m; the runner slides at ω · mean_radius.
-    length, width : float
-        Along and across the motion, m; an infinite width has no side flow, and all forces are
-        then per metre of width.
-    taper, wedge, first_pad, profile, pivot
-        As in `ThrustBearing`.
-
-    Examples
-    --------
-    Rayleigh's step of infinite width at its optimum carries 0.2063 η U L²/h²:
-
-    >>> import math
-    >>> from loadflow.journal import Film, Lubricant, RectangularThrustBearing, Step
-    >>> step = Step(0.866e-4, 0.71823)
-    >>> pad = RectangularThrustBearing(1, 10.0, 1.0, math.inf, profile=step)
-    >>> found = pad.pressure(gap=1e-4, speed=0.1, film=Film(Lubricant(1.0), grid=(40, 4)))
-    >>> round(found.force * 1e-4**2, 3)
-    0.206
-    """
-
-    pads: int
-    mean_radius: float
-    length: float
-    width: float
-    taper: float = 0.0
-    wedge: float = _WEDGE
-    first_pad: float = 0.0
-    profile: Cut | None = None
-    pivot: Pivot | None = None
-
-    def __post_init__(self) -> None:
-        radius = self.mean_radius
-        require(0 < radius < math.inf, "mean_radius", radius, "must be > 0 m and finite")
-        require(0 < self.length < math.inf, "length", self.length, "must be > 0 m and finite")
-        require(self.width > 0, "width", self.width, "must be > 0 m, or infinite")
-        even_pads(self.pads, self.length / radius, self.first_pad)
-        Taper(self.taper, self.wedge)
-        if self.profile is not None:
-            require(self.taper == 0, "taper", self.taper, "0 where a profile is given")
-            require(self.wedge == _WEDGE, "wedge", self.wedge, "left out where a profile is given")
-
-    @property
-    def row(self) -> Pads:
-        """The pads."""
-        surface: Surface = Strip(self.mean_radius, self.width)
-        return _row(self, surface, self.length / self.mean_radius)
+        return row_of(self, surface, self.pad_angle)
 
 
 def _axial(assembly: Assembly, state: AssemblyState) -> float:
@@ -442,7 +394,8 @@ def _axial(assembly: Assembly, state: AssemblyState) -> float:
     return -float(sum(part[2] for pads in assembly.loads(state) for part in pads))
 
 
-def _row(bearing: ThrustBearing | RectangularThrustBearing, surface: Surface, angle: float) -> Pads:
+def row_of(bearing: Any, surface: Surface, angle: float) -> Pads:
+    """Pads of a bearing that says how many, how cut and on what they stand."""
     profile = bearing.profile or Taper(bearing.taper, bearing.wedge)
     centres = even_pads(bearing.pads, angle, bearing.first_pad)
     return Pads(surface, angle, centres, profile=profile, pivot=bearing.pivot)

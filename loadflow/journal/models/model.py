@@ -190,6 +190,8 @@ def _pairs(
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(film, bearing)
     over_area = film.heat is not None and film.heat.over_area
+    of_pads = film.heat is not None and film.heat.of_pads
+    yield "heat", film.heat, of_pads, "a Heat or FilmHeat: a PadHeat is of thrust bearings"
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
