@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import sys
 from collections.abc import Iterable
+from functools import cache
 from typing import Any, get_args, get_type_hints
 
 import annotated_types as at
@@ -32,16 +33,24 @@ def check_fields(instance: Any) -> None:
     InputError
         Naming the field, its value and the range.
     """
-    for name, hint in get_type_hints(type(instance), include_extras=True).items():
+    kind: Any = type(instance)
+    for name, bounds in _bounds_of(kind).items():
         value = getattr(instance, name)
-        bounds = _bounds(hint)
-        if not bounds or value is None:
+        if value is None:
             continue
         if not isinstance(value, (int, float)) or not abs(value) <= sys.float_info.max:
             raise InputError(f"{name}: must be a finite number, got {value!r}")
         for bound in bounds:
             if not _holds(bound, value):
                 raise InputError(f"{name}: must be {_words(bound)}, got {value!r}")
+
+
+@cache
+def _bounds_of(kind: type) -> dict[str, list[Any]]:
+    """Bounds of the fields of a class that have some: to read its annotations takes a while."""
+    hints = get_type_hints(kind, include_extras=True)
+    found = {name: _bounds(hint) for name, hint in hints.items()}
+    return {name: bounds for name, bounds in found.items() if bounds}
 
 
 def _bounds(hint: Any) -> list[Any]:

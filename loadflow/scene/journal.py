@@ -231,5 +231,4 @@ def make_journal(data: dict[str, Any], source: str = "journal") -> Journal:
     try:
         return Journal.model_validate(data)
     except ValidationError as error:
-        schema = Journal.model_json_schema()
-        raise InputError(message(error, source, {(): ("journal",)}, schema)) from error
+        raise InputError(message(error, source, {(): ("journal",)}, Journal)) from error

@@ -377,8 +377,7 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
         return scene
     except ValidationError as error:
-        schema = Scene.model_json_schema()
-        raise InputError(message(error, source, origins(data), schema)) from error
+        raise InputError(message(error, source, origins(data), Scene)) from error
 
 
 def former_sections(path: str | Path) -> list[str]:
@@ -421,7 +420,7 @@ def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     try:
         read = Loads.model_validate({"source": "files", "files": absolute} | given)
     except ValidationError as error:
-        raise InputError(message(error, "loads", {}, Loads.model_json_schema())) from error
+        raise InputError(message(error, "loads", {}, Loads)) from error
     update = {key: getattr(read, key) for key in ("source", "files", *given)}
     return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
 

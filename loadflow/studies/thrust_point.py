@@ -45,7 +45,7 @@ def bearing_of_keys(data: Mapping[str, Any]) -> AnyAxial:
     try:
         found: AnyAxial = TypeAdapter(AnyAxial).validate_python(dict(data))
     except ValidationError as error:
-        raise InputError(message(error, str(data["kind"]), {}, {})) from error
+        raise InputError(message(error, str(data["kind"]), {})) from error
     return found
 
 
