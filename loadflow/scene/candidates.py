@@ -7,6 +7,9 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from loadflow.rolling.rings.usual import usual_rings
+from loadflow.scene.places import GEOMETRIES
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -52,7 +55,19 @@ def machine(turbine: str) -> dict[str, Any]:
     return _read(turbine) if turbine in machine_names() else {}
 
 
+@cache
 def candidates_of(turbine: str) -> Mapping[str, Any]:
-    """Sized candidates of a turbine by name."""
+    """Sized candidates of a turbine by name, with rings that follow from their rolling elements."""
     found: dict[str, Any] = machine(turbine).get("candidates", {})
-    return found
+    return {
+        name: {key: _with_rings(part) for key, part in one.items()} for name, one in found.items()
+    }
+
+
+def _with_rings(part: Any) -> Any:
+    """A place with the usual rings of its bearing, if rings of its kind may be flexible."""
+    kind = part.get("kind") if isinstance(part, dict) else None
+    if kind not in GEOMETRIES or not GEOMETRIES[kind].flexible_rings:
+        return part
+    inner, outer = usual_rings(GEOMETRIES[kind](**part["geometry"]))
+    return {"inner_ring": inner.written, "outer_ring": outer.written} | part

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
+
+from pydantic import TypeAdapter
 
 from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import CatalogueEntry
 from loadflow.rolling.mounting import unused_of
-from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.bearings import FurtherBearing, Ring
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.dynamics import OF_ROLLING, turning
 from loadflow.scene.scene import Scene
@@ -45,8 +48,10 @@ def _of_vibration(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str
             yield key, f"of the results of rolling bearings only {OF_ROLLING} is wanted"
     support = scene.shaft.coupled.get(part.bearing)
     if support is None or support.stiffness != "rolling":
+        sized = _sized_rings(scene)
         for key in ("rings", "inner_ring", "outer_ring"):
-            if getattr(part, key) not in (None, keys_of(part)[key]):
+            value = getattr(part, key)
+            if value not in (None, keys_of(part)[key]) and value not in sized:
                 yield key, f"{OF_ROLLING} takes rigid rings"
 
 
@@ -59,14 +64,26 @@ def _comes_with(scene: Scene, entry: CatalogueEntry) -> bool:
     )
 
 
+def _sized_rings(scene: Scene) -> list[Any]:
+    """Rings that come with the bearings sized for the turbine: nobody stated them."""
+    sized = candidates_of(scene.turbine.name).values()
+    parts = (part for one in sized for part in one.values() if isinstance(part, dict))
+    keys = ("inner_ring", "outer_ring")
+    return [_RING.validate_python(part[key]) for part in parts for key in keys if key in part]
+
+
+_RING = TypeAdapter(Ring)
+
+
 def _of_rings(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
     reason = ""
     if not part.geometry.flexible_rings:
         reason = f"a {part.geometry.kind} bearing has rigid rings only"
     elif part.rings == "rigid" and (not scene.asks or "rings" in part.model_fields_set):
         reason = 'rings = "rigid"'
+    sized = _sized_rings(scene) if reason else ()
     for key in ("inner_ring", "outer_ring") if reason else ():
-        if getattr(part, key) not in (None, keys_of(part)[key]):
+        if (ring := getattr(part, key)) not in (None, keys_of(part)[key]) and ring not in sized:
             yield key, reason
 
 

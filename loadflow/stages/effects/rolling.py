@@ -127,7 +127,10 @@ RINGS = Effect(
     switched=_with_flexible_rings,
     indicator=_rings,
     out='rolling.rings = "rigid"',
-    needs="rolling.inner_ring and rolling.outer_ring",
+    needs=(
+        "rolling.inner_ring and rolling.outer_ring, which bearings sized for the turbine bring "
+        "along; rings of ball, crossed and three-row bearings are rigid here"
+    ),
 )
 
 
