@@ -190,6 +190,9 @@ def _pairs(
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(film, bearing)
     over_area = film.heat is not None and film.heat.over_area
+    if film.rung == "reduced":
+        closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
+        yield "step", "adaptive", closed and steps.step == "adaptive", given
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
