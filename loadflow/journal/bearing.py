@@ -287,7 +287,8 @@ class JournalBearing(JournalGeometry):
             First eccentricity, m; default the static equilibrium of the first load.
         step : {"given", "adaptive"}
             One step from each time to the next, or as many as the accuracy asks for; load and
-            speed are straight lines between the times. Only "grid" adapts.
+            speed are straight lines between the times. "grid" and "reduced" adapt, this one not on
+            a closed path.
         step_tolerance : float
             Error of an adaptive step, share of the narrowest gap.
         periodic : bool or {"direct", "marching"}

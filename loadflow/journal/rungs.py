@@ -131,7 +131,7 @@ RUNGS: dict[str, Rung] = {
             "reduced",
             f"{_MODELS}.reduced",
             _REDUCED,
-            _REDUCED | _WARMING | {"periodic"},
+            _REDUCED | _WARMING | {"step", "periodic"},
             _REDUCED - _HEAT - {"moment"},
         ),
         Rung(

@@ -31,7 +31,9 @@ from loadflow.journal.models._composed_kernels import (
 from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
+    FINEST,
     LATE,
+    SAFETY,
     SMALLEST,
     STEP_LIMIT,
     is_small,
@@ -41,6 +43,7 @@ from loadflow.journal.models._reduced_loops import (
     two_steps,
 )
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._step_kernels import lay_at, leaves_room, longer_step
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 from loadflow.numerics.references import refer
@@ -302,32 +305,6 @@ def keep(work):
 
 
 @once
-def _leaves_room(film, work, q, ahead):
-    """Whether every place of a rigid gap keeps half of itself, or of the roughness, `ahead`."""
-    if film.ring.shaped:
-        way = ahead[0] - q[0], ahead[1] - q[1], ahead[2] - q[2], ahead[3] - q[3]
-        return share_of_step(film, work, *way, 0.5) == 1.0
-    for k in range(film.places.z.size):
-        z, wide = film.places.z[k], 1.0 + film.places.depth[k]
-        bx, by = 0.5 * work.bend[0] * z * z, 0.5 * work.bend[1] * z * z
-        gap = wide - np.hypot(q[0] + q[3] * z + bx, q[1] - q[2] * z + by)
-        next_gap = wide - np.hypot(ahead[0] + ahead[3] * z + bx, ahead[1] - ahead[2] * z + by)
-        if next_gap < gap - 0.5 * max(gap, film.rough.size):
-            return False
-    return True
-
-
-@once
-def lay_at(work, line, n, to, q, given):
-    """Bend of the shaft, and its tilt in `q` if that is `given`, between the times n − 1 and n."""
-    before = max(n - 1, 0)
-    for a in range(2):
-        work.bend[a] = line[before, 2 + a] + to * (line[n, 2 + a] - line[before, 2 + a])
-        if given:
-            q[2 + a] = line[before, a] + to * (line[n, a] - line[before, a])
-
-
-@once
 def _set_out(film, work, q, begin):
     """Make the film at `q` that of the last time; from the third time on, one before it, too.
 
@@ -351,8 +328,8 @@ def _set_out(film, work, q, begin):
 
 @outer
 def solve(
-    film, work, q, size, begin, time, load, line, speed, tolerance, max_iterations, rows, slopes,
-    warmth, states,
+    film, work, q, size, begin, time, load, line, speed, tolerance, max_iterations, accuracy, rows,
+    slopes, warmth, states,
 ):  # fmt: skip
     """A film at rest, or through time: one function, as compiling takes its time for each.
 
@@ -361,31 +338,35 @@ def solve(
     `_finish` does. From a later one on implicit steps of second order (BDF2 of variable step) go
     through all times from there: from the film of `work.u` and `q`, at rest at the first time, or
     from that of `work.last` and `q` after that of `work.before` and `work.places[0]`. A step at
-    which Newton fails is cut, all that is given interpolated.
+    which Newton fails, or whose error is beyond the `accuracy`, a share of the narrowest gap, is
+    cut, all that is given interpolated.
 
     `load` (n, 4), `line` (n, 4) tilt and bend; in motion the tilt is given where `size` is 2.
     Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns how many of them.
     """
     film, work, warmth = refer(film), refer(work), refer(warmth)
-    before, new, given = work.places[0], work.places[1], work.places[2]
+    before, new, given, earlier = work.places[0], work.places[1], work.places[2], work.places[3]
     resting = begin == 0
-    step_before, thin, light = 0.0, states[0, THIN], 1.0
+    step_before, step_earlier, thin, light = 0.0, 0.0, states[0, THIN], 1.0
+    smallest = SMALLEST if accuracy == np.inf else FINEST
     if warmth.on:
         light = lighter(warmth, states, 0)
     if resting:
         work.kept[0] = 0.0
     else:
         _set_out(film, work, q, begin)
-        step_before = work.past[4]
+        step_before, step_earlier = work.past[4], work.past[5]
     for n in range(begin, 1 if resting else time.size):
         last = max(n - 1, 0)
         whole = time[n] - time[last]
         if warmth.on and not resting:
             thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
             light = lighter(warmth, states, n)
-        share, done, spent = 1.0, 0.0, 0
+        share, done, spent, steps = 1.0, 0.0, 0, 0
+        if accuracy < np.inf and not resting:
+            share = min(work.past[6] / whole, 1.0)
         while done < 1.0:
-            to = min(1.0, done + share)
+            to = 1.0 if done + 1.01 * share > 1.0 else done + share
             step, rate = (to - done) * whole, 0.0
             for a in range(4):
                 new[a] = q[a]
@@ -397,7 +378,7 @@ def solve(
                 if step_before > 0.0:
                     for a in range(size):
                         new[a] = q[a] + ratio * (q[a] - before[a])
-                    ahead = film.give > 0.0 or _leaves_room(film, work, q, new)
+                    ahead = film.give > 0.0 or leaves_room(film, work, q, new)
                     if not ahead:
                         for a in range(size):
                             new[a] = q[a]
@@ -410,26 +391,33 @@ def solve(
                 tolerance, max_iterations,
             )  # fmt: skip
             spent += iterations
-            if converged or resting:
+            longer = 2.0 if converged else 0.5
+            if converged and accuracy < np.inf and not resting:
+                longer = longer_step(film, work, q, size, step, step_before, step_earlier, accuracy)
+            taken = longer >= SAFETY
+            if taken or resting:
                 for a in range(4):
-                    before[a], q[a] = q[a], new[a]
-                done = to
-            if converged:
+                    earlier[a], before[a], q[a] = before[a], q[a], new[a]
+                ahead_of, done = longer * (to - done), to
+            if taken:
                 keep(work)
                 for a in range(2):
                     work.past[a], work.past[2 + a] = work.past[2 + a], work.bend[a]
-                step_before = step
-                work.past[4] = step
-                share = min(2.0 * share, 1.0)
-            elif share > SMALLEST:
-                share *= 0.5
+                step_earlier, step_before, steps = step_before, step, steps + 1
+                work.past[4], work.past[5] = step, step_earlier
+                share = min(ahead_of, 1.0) if to < 1.0 else max(ahead_of, share)
+                work.past[6] = share * whole
+            elif share > smallest:
+                share *= longer
                 work.kept[0] = 0.0
             else:
+                converged = False
                 break
         rows[n, at.RESIDUAL] = residual
         rows[n, at.ITERATIONS] = spent
         rows[n, at.CONVERGED] = converged
         rows[n, at.ROUNDING] = rounding
+        rows[n, at.STEPS] = steps
         if not converged:
             for a in range(4):
                 rows[n, a] = new[a]

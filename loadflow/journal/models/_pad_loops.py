@@ -19,7 +19,7 @@ from loadflow.journal.models._composed_kernels import (
     matrix,
     slopes_of_balance,
 )
-from loadflow.journal.models._composed_loops import keep, lay_at, solve_system
+from loadflow.journal.models._composed_loops import keep, solve_system
 from loadflow.journal.models._integral_kernels import fed, summarise
 from loadflow.journal.models._pad_kernels import (
     BEFORE,
@@ -35,7 +35,9 @@ from loadflow.journal.models._pad_kernels import (
 )
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
+    FINEST,
     LATE,
+    SAFETY,
     SMALLEST,
     STEP_LIMIT,
     is_small,
@@ -44,6 +46,7 @@ from loadflow.journal.models._reduced_loops import (
     two_steps,
 )
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._step_kernels import lay_at, longer_step
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
 from loadflow.numerics.references import refer
@@ -306,7 +309,7 @@ def _summed(film, work, pads, pad_work, q, wedge, rate, row):
 @outer
 def solve_on_pads(
     film, work, pads, pad_work, q, size, begin, time, load, line, speed, tolerance, max_iterations,
-    rows, tilts, warmth, states,
+    accuracy, rows, tilts, warmth, states,
 ):  # fmt: skip
     """As `_composed_loops.solve` without its slopes; fills `tilts` (n, p), too.
 
@@ -316,25 +319,28 @@ def solve_on_pads(
     film, work, warmth = refer(film), refer(work), refer(warmth)
     pads, pad_work = refer(pads), refer(pad_work)
     before, new, given, own = work.places[0], work.places[1], work.places[2], pad_work.tilts
-    count, resting = pad_work.on.size, begin == 0
-    step_before, thin, light = 0.0, states[0, THIN], 1.0
+    earlier, count, resting = work.places[3], pad_work.on.size, begin == 0
+    step_before, step_earlier, thin, light = 0.0, 0.0, states[0, THIN], 1.0
+    smallest = SMALLEST if accuracy == np.inf else FINEST
     if warmth.on:
         light = lighter(warmth, states, 0)
     if resting:
         hold_pads(film, pads, pad_work)
     else:
         set_out(film, work, pads, pad_work, q, begin > 1)
-        step_before = work.past[4]
+        step_before, step_earlier = work.past[4], work.past[5]
     for n in range(begin, 1 if resting else time.size):
         last = max(n - 1, 0)
         whole = time[n] - time[last]
         if warmth.on and not resting:
             thin = slow_heat(warmth, states, n, whole, speed, rows, at.DISSIPATION, at.NORMAL)
             light = lighter(warmth, states, n)
-        share, done, spent = 1.0, 0.0, 0
+        share, done, spent, steps = 1.0, 0.0, 0, 0
+        if accuracy < np.inf and not resting:
+            share = min(work.past[6] / whole, 1.0)
         other = False  # whether this step is tried on other pads
         while done < 1.0:
-            to = min(1.0, done + share)
+            to = 1.0 if done + 1.01 * share > 1.0 else done + share
             step, rate = (to - done) * whole, 0.0
             omega = thin * (speed[last] + to * (speed[n] - speed[last]))
             for a in range(4):
@@ -362,19 +368,24 @@ def solve_on_pads(
                 thin * rate, tolerance, max_iterations,
             )  # fmt: skip
             spent += iterations
-            if converged or resting:
+            longer = 2.0 if converged else 0.5
+            if converged and accuracy < np.inf and not resting:
+                longer = longer_step(film, work, q, size, step, step_before, step_earlier, accuracy)
+            taken = longer >= SAFETY
+            if taken or resting:
                 for a in range(4):
-                    before[a], q[a] = q[a], new[a]
+                    earlier[a], before[a], q[a] = before[a], q[a], new[a]
                 for j in range(count):
                     own[BEFORE, j], own[LAST, j] = own[LAST, j], own[NEXT, j]
-                done = to
-            if converged:
+                ahead_of, done = longer * (to - done), to
+            if taken:
                 keep(work)
                 for a in range(2):
                     work.past[a], work.past[2 + a] = work.past[2 + a], work.bend[a]
-                step_before = step
-                work.past[4] = step
-                share, other = min(2.0 * share, 1.0), False
+                step_earlier, step_before, steps = step_before, step, steps + 1
+                work.past[4], work.past[5] = step, step_earlier
+                share, other = min(ahead_of, 1.0) if to < 1.0 else max(ahead_of, share), False
+                work.past[6] = share * whole
                 if done >= 1.0:
                     wedge = 0.5 * film.ring.slope * omega
                     _summed(film, work, pads, pad_work, q, wedge, thin * rate, rows[n])
@@ -391,17 +402,19 @@ def solve_on_pads(
                     set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif resting:
                 pass
-            elif not other and _other_pads(work, pads, pad_work, q, new, omega):
+            elif not converged and not other and _other_pads(work, pads, pad_work, q, new, omega):
                 other = True
                 set_out(film, work, pads, pad_work, q, step_before > 0.0)
-            elif share > SMALLEST:
-                share *= 0.5
+            elif share > smallest:
+                share *= longer
                 if other:
                     spare_state(work, pad_work, False)
                 other = False
                 set_out(film, work, pads, pad_work, q, step_before > 0.0)
             else:
+                converged = False
                 break
+        rows[n, at.STEPS] = steps
         rows[n, at.RESIDUAL] = residual
         rows[n, at.ITERATIONS] = spent
         rows[n, at.CONVERGED] = converged

@@ -31,18 +31,21 @@ from loadflow.journal.models.reduced_film import (
     ITERATIONS,
     RESIDUAL,
     ROUNDING,
+    STEPS,
     X,
     Y,
 )
 from loadflow.journal.models.slow_heat import THIN, slow_heat
+from loadflow.journal.solvers import step_size
 from loadflow.numerics import convergence
 
 STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way
-SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
 LATE = 8  # Newton steps after which a residual is asked whether it is that of rounding
 COARSEST = convergence.COARSEST
 rounding_level = inner(convergence.rounding_level)
 is_small = inner(convergence.is_small)
+foreseen, growth = inner(step_size.foreseen), inner(step_size.growth)
+SAFETY, SMALLEST, FINEST = step_size.SAFETY, step_size.SMALLEST, step_size.FINEST
 along_the_gap = once(_gap_kernels.along_the_gap.py_func)
 
 
@@ -225,27 +228,31 @@ def predict(work, ratio, extrapolate, weight, weight_before):
 
 
 @outer
-def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows, warmth, states):
+def march(
+    film, work, x, y, time, force, speed, tolerance, max_iterations, accuracy, rows, warmth, states
+):
     """Implicit steps of second order (BDF2 of variable step) through all of `time`.
 
-    `work.u` and (x, y) are the film at the first time. A step at which Newton fails is cut, load
-    and speed interpolated. Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns
+    `work.u` and (x, y) are the film at the first time. A step at which Newton fails, or whose error
+    is beyond the `accuracy`, a share of the narrowest gap, is cut, load and speed interpolated.
+    Fills `rows` (n, RESULTS), and `states` as `slow_heat` does, and returns
     how many of them.
     """
     place(film, work, x, y)
     keep(work)
-    x_before, y_before = x, y
+    x_before, y_before, x_earlier, y_earlier = x, y, x, y
     wedge = 0.5 * film.ring.slope * states[0, THIN] * speed[0]
     summarise(film, work, x, y, 0.0, 0.0, wedge, rows[0])
     vx, vy = 0.0, 0.0
-    step_before, thin = 0.0, 1.0
+    step_before, step_earlier, allowed, thin = 0.0, 0.0, np.inf, 1.0
+    smallest = SMALLEST if accuracy == np.inf else FINEST
     for n in range(1, time.size):
         whole = time[n] - time[n - 1]
         if warmth.on:
             thin = slow_heat(warmth, states, n, whole, speed, rows, DISSIPATION, -1)
-        share, done, spent = 1.0, 0.0, 0
+        share, done, spent, steps = min(allowed / whole, 1.0), 0.0, 0, 0
         while done < 1.0:
-            at = min(1.0, done + share)
+            at = 1.0 if done + 1.01 * share > 1.0 else done + share
             step = (at - done) * whole
             rate, weight, weight_before, ratio = two_steps(step, step_before)
             x_new, y_new, ahead = x, y, False
@@ -269,22 +276,35 @@ def march(film, work, x, y, time, force, speed, tolerance, max_iterations, rows,
                 max_iterations,
             )
             spent += iterations
-            if converged:
+            longer = 2.0 if converged else 0.5
+            if converged and accuracy < np.inf:
+                last, second, third = foreseen(step, step_before, step_earlier)
+                left_x = x_new - last * x - second * x_before - third * x_earlier
+                left_y = y_new - last * y - second * y_before - third * y_earlier
+                left, narrow = np.hypot(left_x, left_y), narrowest(film, x_new, y_new)
+                longer = growth(left, narrow, step, step_before, step_earlier, accuracy)
+            if longer >= SAFETY:
                 keep(work)
                 vx = rate * x_new - weight * x - weight_before * x_before
                 vy = rate * y_new - weight * y - weight_before * y_before
-                x_before, y_before, x, y = x, y, x_new, y_new
-                step_before = step
+                x_earlier, y_earlier, x_before, y_before = x_before, y_before, x, y
+                x, y = x_new, y_new
+                step_earlier, step_before, steps = step_before, step, steps + 1
+                share = (
+                    min(longer * (at - done), 1.0) if at < 1.0 else max(longer * (at - done), share)
+                )
                 done = at
-                share = min(2.0 * share, 1.0)
-            elif share > SMALLEST:
-                share *= 0.5
+            elif share > smallest:
+                share *= longer
             else:
+                converged = False
                 break
+        allowed = share * whole if accuracy < np.inf else np.inf
         rows[n, RESIDUAL] = residual
         rows[n, ITERATIONS] = spent
         rows[n, CONVERGED] = converged
         rows[n, ROUNDING] = rounding
+        rows[n, STEPS] = steps
         if not converged:
             rows[n, X], rows[n, Y] = x_new, y_new
             return n + 1

@@ -162,7 +162,8 @@ class Creep:
         row = np.zeros((1, self.model.columns))
         solve(
             self.model.film, self.model.work, place, size, 0, _AT_REST, self.loads, self.line,
-            np.array([speed]), self.tolerance, most, row, _NO_SLOPES, self.warmth, self.states,
+            np.array([speed]), self.tolerance, most, np.inf, row, _NO_SLOPES, self.warmth,
+            self.states,
         )  # fmt: skip
         self.spent += int(row[0, at.ITERATIONS])
         return row[0]

@@ -25,10 +25,10 @@ Array = NDArray[np.float64]
 # columns of a row of results
 (
     X, Y, TILT_X, TILT_Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FILLED, LEAST, GROWTH, MOMENT_X,
-    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, BEYOND, FED, RESIDUAL, ITERATIONS, CONVERGED,
-    ROUNDING,
-) = range(23)  # fmt: skip
-RESULTS = 23
+    MOMENT_Y, CONTACT_X, CONTACT_Y, NORMAL, HIGHEST, BEYOND, FED, STEPS, RESIDUAL, ITERATIONS,
+    CONVERGED, ROUNDING,
+) = range(24)  # fmt: skip
+RESULTS = 24
 
 
 class Places(NamedTuple):
@@ -286,10 +286,12 @@ class ComposedWork(NamedTuple):
         Reynolds number of a gap of the clearance, and over its critical value.
     step : array (4,)
         Newton step of the shaft.
-    places : array (3, 4)
-        Position at the time before the last, the next one, and its load.
-    past : array (5,)
-        Bend of the shaft at the time before the last, at the last; the step between them, s.
+    places : array (4, 4)
+        Position at the time before the last, the next one, its load, and position at the time
+        before these.
+    past : array (7,)
+        Bend of the shaft at the time before the last, at the last; the step between them and the
+        one before it, s, 0 where there is none; the step that its error allows next, s.
     kept : array (2,)
         Whether `matrix` holds factors, and `columns` what they make of the derivatives by the
         position; the rate of these, 1/s.
@@ -356,8 +358,8 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         pressed=np.zeros((4, around, inner)),
         numbers=np.zeros(2),
         step=np.zeros(4),
-        places=np.zeros((3, 4)),
-        past=np.zeros(5),
+        places=np.zeros((4, 4)),
+        past=np.zeros(7),
         kept=np.zeros(2),
         fed=np.zeros(grooves),
     )

@@ -49,6 +49,7 @@ from loadflow.numerics.convergence import Limits
 Array = NDArray[np.float64]
 
 STEP_BEFORE = 4  # of the `past` of a state: the step to its last time, s; 0 at the first one
+_BEGUN = (0.0, 0.0, np.inf)  # steps of the past of a first state
 _NO_SLOPES = np.zeros((2, 0, 0))
 _STRETCH = 24  # samples that take more points together
 _LONG = 240  # samples that go on together with few; calls of fewer cost
@@ -65,6 +66,7 @@ class State(NamedTuple):
     before: Array
     place: Array
     place_before: Array
+    place_earlier: Array
     past: Array
     tilts: Array | None = None
     on: NDArray[np.bool_] | None = None
@@ -103,7 +105,7 @@ class March:
     """The loops over what drives a path, and the rows that they fill."""
 
     def __init__(self, drive: Drive, steps: Steps) -> None:
-        self.drive, self.start = drive, steps.start
+        self.drive, self.start, self.accuracy = drive, steps.start, steps.accuracy
         self.levels = levels_of(drive.options)
         self.model = model = drive.film(self.levels[0])
         contact = drive.options.contact
@@ -123,8 +125,8 @@ class March:
         model, drive = self.drive.film(level), self.drive
         solved = solve(
             model.film, model.work, place, size, begin, drive.time[:end], self.loads[:end],
-            self.lines[:end], drive.speed[:end], drive.control.tolerance, most, self.rows[:end],
-            _NO_SLOPES, self.warmth, self.states[:end],
+            self.lines[:end], drive.speed[:end], drive.control.tolerance, most, self.accuracy,
+            self.rows[:end], _NO_SLOPES, self.warmth, self.states[:end],
         )  # fmt: skip
         return bool(self.rows[solved - 1, at.CONVERGED])
 
@@ -158,8 +160,7 @@ class March:
             for moving in (0, size):  # the film first
                 found = self.solve(level, place, moving, 0, 1, most)
         bend = self.lines[0, 2:]
-        past = np.concatenate([bend, bend, [0.0]])
-        return State(level, work.u.copy(), work.u.copy(), place, place, past) if found else None
+        return _first(level, work.u, place, bend) if found else None
 
     def _creeps(self, level: int, place: Array, most: int) -> bool:
         """Whether the first film is found from faster or standing ones; moves `place`."""
@@ -183,12 +184,14 @@ class March:
         work.last[:] = self._moved(state.last, state.level, level)
         work.before[:] = self._moved(state.before, state.level, level)
         work.u[:] = work.last
-        work.places[0], work.past[:], work.bend[:] = state.place_before, state.past, state.past[2:4]
+        work.places[0], work.places[3] = state.place_before, state.place_earlier
+        work.past[:], work.bend[:] = state.past, state.past[2:4]
         most = self.drive.control.max_iterations
         if not self.solve(level, place, model.size, begin, end, most):
             return None
-        last, before, earlier = work.last.copy(), work.before.copy(), work.places[0].copy()
-        self.reached = State(level, last, before, place, earlier, work.past.copy())
+        films, past = (work.last.copy(), work.before.copy()), work.past.copy()
+        earlier = work.places[0].copy(), work.places[3].copy()
+        self.reached = State(level, *films, place, *earlier, past)
         return self.reached
 
     def _moved(self, unknowns: Array, level: int, other: int) -> Array:
@@ -248,7 +251,7 @@ class _OnPads(March):
         solved = solve_on_pads(
             model.film, model.work, *self.pads_at(level), place, size, begin, drive.time[:end],
             self.loads[:end], self.lines[:end], drive.speed[:end], drive.control.tolerance, most,
-            self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
+            self.accuracy, self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
         )  # fmt: skip
         return bool(self.rows[solved - 1, at.CONVERGED])
 
@@ -262,8 +265,7 @@ class _OnPads(March):
         sizes = (0, model.size) if self.start is None else (0,)  # the film first
         if not [self.solve(level, place, size, 0, 1, most) for size in sizes][-1]:
             return None
-        past = np.concatenate([bend, bend, [0.0]])
-        begun = State(level, work.u.copy(), work.u.copy(), place, place, past)
+        begun = _first(level, work.u, place, bend)
         return begun._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
 
     def goes_on(self, state: State, level: int, begin: int, end: int) -> State | None:
@@ -284,6 +286,12 @@ class _OnPads(March):
     def results(self) -> dict[str, Any]:
         tilts = self.tilts * self.drive.bearing.relative_clearance
         return super().results() | {"pad_tilt": tilts}
+
+
+def _first(level: int, unknowns: Array, place: Array, bend: Array) -> State:
+    """The state of a film at the first time, which has no past."""
+    past, film = np.concatenate([bend, bend, _BEGUN]), unknowns.copy()
+    return State(level, film, film, place, place, place, past)
 
 
 def march_of(drive: Drive, steps: Steps) -> March:
@@ -344,6 +352,8 @@ def orbit(
     if left.any():
         warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
     values = march.results() | {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    if steps.step == "adaptive":
+        values["steps"] = rows[:, at.STEPS].astype(int)
     if options.contact is not None:
         values["contact_share"] = contact_share(values["contact_force"], force)
     return cooled(march.warmth, march.states, values)

@@ -192,7 +192,7 @@ def placed(
     row, none = np.zeros((1, model.columns)), np.zeros((1, 4))
     solve(
         model.film, model.work, place.copy(), 0, 0, _AT_REST, none, line[None], np.array([speed]),
-        control.tolerance, control.max_iterations, row, slopes, COLD, standing_states(1),
+        control.tolerance, control.max_iterations, np.inf, row, slopes, COLD, standing_states(1),
     )  # fmt: skip
     return row[0]
 

@@ -165,7 +165,7 @@ class _Loads:
         solve(
             model.film, model.work, place, model.size if size is None else size, 0, _AT_REST,
             self.loads[this], self.lines[this], self.speed[this], self.control.tolerance,
-            self.control.max_iterations, row, slopes, COLD, standing_states(1),
+            self.control.max_iterations, np.inf, row, slopes, COLD, standing_states(1),
         )  # fmt: skip
         return row[0]
 

@@ -192,6 +192,9 @@ def _pairs(
     over_area = film.heat is not None and film.heat.over_area
     of_pads = film.heat is not None and film.heat.of_pads
     yield "heat", film.heat, of_pads, "a Heat or FilmHeat: a PadHeat is of thrust bearings"
+    if film.rung == "reduced":
+        closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
+        yield "step", "adaptive", closed and steps.step == "adaptive", given
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one

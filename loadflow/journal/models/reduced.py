@@ -254,8 +254,8 @@ def _path(
         raise no_start(force[0], speed[0], float(np.hypot(x, y)), missed)
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
-        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations, rows,
-        warmth, states,
+        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations,
+        steps.accuracy, rows, warmth, states,
     )  # fmt: skip
     last = solved - 1
     if not rows[last, at.CONVERGED]:
@@ -264,6 +264,8 @@ def _path(
         raise stopped(time[last], force[last], speed[last], ratio, missed)
     values = _results(bearing, film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
+    if steps.step == "adaptive":
+        values["steps"] = rows[:, at.STEPS].astype(int)
     return orbit_dataset(values, time, force, speed, bearing.clearance)
 
 

@@ -13,9 +13,9 @@ from loadflow.journal.models.width_modes import Axial
 Array = NDArray[np.float64]
 
 # columns of a row of results
-RESULTS = 12
-X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FED, FILLED = range(8)
-RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(8, RESULTS)
+RESULTS = 13
+X, Y, PEAK, DISSIPATION, SHEAR, OUTFLOW, FED, FILLED, STEPS = range(9)
+RESIDUAL, ITERATIONS, CONVERGED, ROUNDING = range(9, RESULTS)
 
 
 class Reduced(NamedTuple):

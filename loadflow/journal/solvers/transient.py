@@ -14,11 +14,13 @@ from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.rows import attitude_angle
+from loadflow.journal.solvers import step_size
 from loadflow.journal.solvers.history import Past, backward_difference
 from loadflow.journal.solvers.moving_pads import other_pads, with_pads
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.journal.solvers.pads import unload_other_pads
+from loadflow.journal.solvers.step_size import FINEST, SAFETY, SMALLEST, foreseen
 from loadflow.numerics.convergence import unresolved
 from loadflow.quantities import FILM
 
@@ -26,10 +28,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
-
-_SMALLEST = 1.0 / 256  # of a given step, to which a step that fails may be cut
-_SAFETY = 0.8  # of the step that the error would allow
-_FINEST = 1.0 / 65536  # of a given step, to which one that is not accurate may be cut
 
 
 class OrbitStopped(SolverError):
@@ -104,7 +102,7 @@ class Marcher:
         cut and all that is given interpolated.
         """
         start = past[-1].time
-        smallest = _SMALLEST if math.isinf(self.accuracy) else _FINEST
+        smallest = SMALLEST if math.isinf(self.accuracy) else FINEST
         share, done, spent, steps = 1.0, 0.0, 0, 0
         if self.accuracy < math.inf:
             share = min(past[-1].ahead / (time - start), 1.0)
@@ -123,7 +121,7 @@ class Marcher:
                     solution = self._try(before_step, now, load, line)
                     spent += solution.iterations
             growth = self._growth(past, now, solution.position) if solution.converged else 0.5
-            if growth >= _SAFETY:
+            if growth >= SAFETY:
                 share = (
                     min(growth * (at - done), 1.0) if at < 1.0 else max(growth * (at - done), share)
                 )
@@ -138,24 +136,15 @@ class Marcher:
                 return replace(solution, iterations=spent, converged=False), past, steps
 
     def _growth(self, past: list[Past], time: float, position: Array) -> float:
-        """How much longer the next step may be; below `_SAFETY` this one was too long.
-
-        The error of the step follows from how far the corrector left the polynomial through the
-        last positions.
-        """
+        """How much longer the next step may be; below `SAFETY` this one was too long."""
         if math.isinf(self.accuracy):
             return 2.0
-        step = time - past[-1].time
-        times = np.array([p.time - time for p in past])
-        weights = np.array([np.prod([s / (s - t) for s in times if s != t]) for t in times])
-        left = position - weights @ np.array([p.position for p in past])
-        share = 1.0
-        if len(past) == 3:
-            ratio = step / (past[-1].time - past[-2].time)
-            known = step * (1 + ratio) / (1 + 2 * ratio)
-            share = known / (known - times[0])
-        error = share * math.hypot(*left) / max(self.film.gap.narrowest(position), 1e-300)
-        return min(2.0, max(0.2, _SAFETY * (self.accuracy / max(error, 1e-300)) ** (1 / 3)))
+        lasting = np.diff([*(p.time for p in past), time])[::-1].tolist()
+        step, before, earlier = [*lasting, 0.0, 0.0][:3]
+        ahead = [w * p.position for w, p in zip(foreseen(step, before, earlier), reversed(past))]
+        left = math.hypot(*(position - np.sum(ahead, axis=0)).tolist())
+        narrow = self.film.gap.narrowest(position)
+        return step_size.growth(left, narrow, step, before, earlier, self.accuracy)
 
     def _try(self, past: list[Past], time: float, force: Array, line: Array | None) -> Solution:
         last = past[-1]
