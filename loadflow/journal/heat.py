@@ -201,6 +201,11 @@ class Heat(Entering):
         return ("inlet_temperature", "ambient_temperature", "start_temperature")
 
     @property
+    def stands_as_it_enters(self) -> bool:
+        """Whether oil that gains no heat is as warm as it enters, at once."""
+        return self.transfer == 0 and self.sump_transfer is None and self.capacity is None
+
+    @property
     def gives_off(self) -> bool:
         """Whether the temperature of the surroundings acts on the film."""
         return self.transfer > 0 or self.sump_transfer is not None or self.growth is not None

@@ -49,17 +49,18 @@ class Effort:
         Load cases that it looks at, at most.
     duration : float
         Length of a simulated case, s, where the case itself is longer.
-    simulates : bool
-        Whether the case is simulated with each effect of the rotor in and out; else these are
-        decided by their indicators.
+    thorough : bool
+        Whether the case is simulated with each effect of the rotor in and out, and effects that the
+        scene has by name are measured, of which nothing is to decide; else these stand by their
+        indicators.
     """
 
     cases: int
     duration: float
-    simulates: bool = True
+    thorough: bool = True
 
 
-EFFORTS = (Effort(2, 100.0), Effort(1, 60.0), Effort(1, 60.0, simulates=False))
+EFFORTS = (Effort(2, 100.0), Effort(1, 60.0), Effort(1, 60.0, thorough=False))
 """From the most on. The least is taken where even that is more than its `SHARE`."""
 
 Report = Callable[[str, int, int], None]
@@ -151,7 +152,12 @@ def pilot(
     chosen = chosen_models(scene, cases).scene
     worth = list(_worth_measuring(scene, chosen, cases))
     effort = effort or effort_for(chosen, worth, cases)
-    effects = [one.name for one in worth if effort.simulates or one.model != "loads"]
+    effects = [
+        one.name
+        for one in worth
+        if effort.thorough
+        or (one.model != "loads" and (one.is_open(scene) or not one.is_on(scene)))
+    ]
     if not effects:
         return None
     looked_at = hardest(scene, cases)[: effort.cases]
@@ -256,6 +262,8 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
                     inputs[name] = STAGES[name].run(scene, case, inputs)
         except SolverError:
             break  # the run itself says so of this case
+        if not probe.can_answer(case, inputs):
+            continue
 
         def answers(one: Scene) -> Answers:
             return probe.answers(one, case, inputs)  # noqa: B023  used within this turn

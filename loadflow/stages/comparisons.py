@@ -30,6 +30,7 @@ from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
 from loadflow.stages.thrust import samples_of, solved
+from loadflow.stages.turning import is_parked, turning
 
 Parts = Mapping[str, Any]
 """What each stage gave for a case, by the name of the stage."""
@@ -79,7 +80,7 @@ def compare(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
 
 def _film(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     again = _orbits if scene.journal.in_motion else _films
-    for model, against, options in _better_films(scene, parts):
+    for model, against, options in _better_films(scene, case, parts):
         yield from again(scene, case, parts, model, against, options)
     if not scene.journal.in_motion:
         yield from _motion(scene, case, parts)
@@ -160,9 +161,16 @@ def _answered(parts: Parts) -> list[str]:
     return [name for name, node in parts["journal"].children.items() if node["converged"].any()]
 
 
-def _better_films(scene: Scene, parts: Parts) -> Iterator[tuple[str, str, dict[str, Journal]]]:
-    """Stage, name and, by bearing, journal bearing of each model that the film is compared with."""
+def _better_films(
+    scene: Scene, case: Case, parts: Parts
+) -> Iterator[tuple[str, str, dict[str, Journal]]]:
+    """Stage, name and, by bearing, journal bearing of each model that the film is compared with.
+
+    None of a shaft that stands throughout: what it rests on as it creeps in its brake depends on
+    the cells, however fine they are.
+    """
     films = {b: parts["journal"][b].to_dataset() for b in _answered(parts)}
+    films = {b: film for b, film in films.items() if np.isfinite(_running_ratio(case, film)).any()}
     if scene.journal.heat is None:
         warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
         yield HEAT.name, "oil warmed by its friction", warmer
@@ -199,7 +207,7 @@ def _films(
     """
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
-        places = _spread(_running_ratio(film))
+        places = _spread(_running_ratio(case, film))
         some = film.isel(sample=places)
         loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
         line = shaft_line(scene.journal, loads)
@@ -220,7 +228,7 @@ def _orbits(
         film = parts["journal"][bearing].to_dataset().load()
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
-        runs = _running_ratio(film)
+        runs = _running_ratio(case, film)
         worst = int(np.nanargmax(runs))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
         begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
@@ -244,12 +252,14 @@ def _orbits(
         yield from _rows(stage, "journal.film", where, against, found, theirs)
 
 
-def _running_ratio(film: xr.Dataset) -> np.ndarray:
+def _running_ratio(case: Case, film: xr.Dataset) -> np.ndarray:
     """Eccentricity ratio of the samples in which the rotor runs, where some have one; else NaN.
 
-    Without any such sample that of all.
+    Without any such sample that of all in which it turns.
     """
-    ratio = film["eccentricity_ratio"]
+    ratio = film["eccentricity_ratio"].where(
+        xr.DataArray(turning(film, is_parked(case)), dims="sample")
+    )
     running = ratio.where(counted(film))
     return np.asarray((running if running.notnull().any() else ratio).values)
 

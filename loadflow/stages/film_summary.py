@@ -15,7 +15,7 @@ from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
 from loadflow.stages.running_time import counted, time_shares
 from loadflow.stages.summary import over_cases
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.stages.turning import is_parked, turning
 
 
 def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
@@ -25,8 +25,7 @@ def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
 
 def _summary_of(case: Case, tree: xr.DataTree) -> xr.Dataset:
     nodes = [node.to_dataset().load() for node in tree.children.values()]
-    parked = case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].parked
-    parts = [extremes(samples, parked).merge(mixed_friction(samples)) for samples in nodes]
+    parts = [extremes(samples, is_parked(case)).merge(mixed_friction(samples)) for samples in nodes]
     return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
         bearing=list(tree.children)
     )
@@ -71,15 +70,15 @@ def extremes(samples: xr.Dataset, parked: bool = False) -> xr.Dataset:
     Samples in contact or without an answer have no values; they are counted. Means leave out those
     in which the rotor stands or idles, where ``running`` says so.
     """
-    weight, turning = samples["weight"], _turning(samples) & (not parked)
+    weight, turns = samples["weight"], turning(samples, parked)
     found: dict[str, tuple[xr.DataArray, str, str]] = {}
     for name, (of, which, units, meaning) in EXTREMES.items():
         if of in samples:
-            found |= _extreme(samples, name, _judged(samples, of, turning), which, units, meaning)
+            found |= _extreme(samples, name, _judged(samples, of, turns), which, units, meaning)
     if "load" in samples:
-        values, meaning = np.where(turning, np.nan, samples["load"].values), "largest load standing"
+        values, meaning = np.where(turns, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
-    found |= _grid_errors(samples, turning)
+    found |= _grid_errors(samples, turns)
     for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
         for name, (of, units, meaning) in means.items():
             if of in samples:
@@ -99,10 +98,10 @@ def extremes(samples: xr.Dataset, parked: bool = False) -> xr.Dataset:
     return labelled(found)
 
 
-def _judged(samples: xr.Dataset, of: str, turning: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Values of which the extreme is taken; NaN where they do not count."""
     values = samples[of].values
-    return np.where(turning, values, np.nan) if of in IN_MOTION else values
+    return np.where(turns, values, np.nan) if of in IN_MOTION else values
 
 
 def _extreme(
@@ -124,13 +123,13 @@ def _extreme(
 
 
 def _grid_errors(
-    samples: xr.Dataset, turning: NDArray[np.bool_]
+    samples: xr.Dataset, turns: NDArray[np.bool_]
 ) -> dict[str, tuple[xr.DataArray, str, str]]:
     """Bounds of what the cells do to the extremes: of films at rest each its own, of a path one."""
     found = {}
     for name in ("smallest_film", "largest_pressure"):
         of, which, units, meaning = EXTREMES[name]
-        values, bounds = _judged(samples, of, turning), samples.get(of + GRID_ERROR)
+        values, bounds = _judged(samples, of, turns), samples.get(of + GRID_ERROR)
         bound = samples.attrs.get(of + GRID_ERROR, np.nan)
         if bounds is not None and np.isfinite(values).any():
             bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]
@@ -164,16 +163,6 @@ def warnings(tree: xr.DataTree) -> list[str]:
     return said
 
 
-STANDING = 0.01 * np.pi / 30
-"""Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
-[Jonuschies 2015]."""
-
-SWING = 0.2
-"""Angle, rad, within which a shaft that stands may swing: a brake holds it by an elastic
-drivetrain, and slips in gusts (0.14 rad in 36 s after a fault at 24 m/s). So short an arc, beside
-the loaded one of some π, draws no film in: the surfaces rest on each other."""
-
-
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
 
@@ -188,7 +177,7 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     """
     time, speed, about = samples["time"].values, np.abs(samples["speed"].values), samples.attrs
     touching = samples["in_contact"].values.astype(bool)
-    turning = _turning(samples)
+    turns = turning(samples)
     known = np.isfinite(samples["friction_power"].values)  # in contact, too, with its asperities
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
@@ -196,15 +185,15 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     critical = about.get("critical_eccentricity_ratio", np.inf)
     own = samples["eccentricity_ratio"].values if "eccentricity_ratio" in samples else 0.0
     ratio = np.where(touching, 1.0, own)
-    mixed = turning & (touching | (ratio > critical))
+    mixed = turns & (touching | (ratio > critical))
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
     when, at = _transition(time, speed, ratio, critical)
     parted, landed = _changes(time, speed, touching)
-    stood, last = _standing(time, turning, np.where(touching & ~known, np.nan, ratio))
+    stood, last = _standing(time, turns, np.where(touching & ~known, np.nan, ratio))
     values: dict[str, tuple[Any, str, str]] = {
         "duration": (seconds.sum(), "s", "length of the series"),
-        "contact_time": (seconds[touching & turning].sum(), "s", "time in contact while turning"),
+        "contact_time": (seconds[touching & turns].sum(), "s", "time in contact while turning"),
         "mixed_friction_time": (seconds[mixed].sum(), "s", "time above E_krit while turning"),
         "mixed_friction_revolutions": (
             (seconds * speed)[mixed].sum() / (2 * np.pi), "1", "revolutions above E_krit",
@@ -251,25 +240,6 @@ def _changes(
     last = int(changed[-1])
     there = float(time[last]), float(speed[last])
     return (there, none) if touching[0] else (none, there)
-
-
-def _turning(samples: xr.Dataset) -> NDArray[np.bool_]:
-    """Whether the shaft turns, at each sample: one that swings in its brake stands."""
-    if "speed" not in samples:
-        return np.ones(samples["converged"].shape, dtype=bool)
-    speed = samples["speed"].values
-    moves = np.abs(speed) >= STANDING
-    if "time" in samples:
-        moves &= ~_swinging(samples["time"].values, speed)
-    return np.asarray(moves)
-
-
-def _swinging(time: np.ndarray, speed: np.ndarray) -> NDArray[np.bool_]:
-    """From where on a shaft has turned back and only swings, to the end of the series."""
-    turned = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time)))
-    most, least = (of.accumulate(turned[::-1])[::-1] for of in (np.maximum, np.minimum))
-    back = np.append(False, speed[1:] * speed[:-1] < 0.0) & (most - least < SWING)
-    return np.asarray(np.logical_or.accumulate(back))
 
 
 def _standing(time: np.ndarray, turning: np.ndarray, ratio: np.ndarray) -> tuple[float, float]:

@@ -11,6 +11,7 @@ import xarray as xr
 from loadflow.cube import time_step
 from loadflow.errors import SolverError
 from loadflow.journal.grid_bounds import unresolved_counted
+from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
 from loadflow.journal.validity import critical_reynolds_number, reynolds_number
@@ -37,6 +38,7 @@ from loadflow.stages.stage import (
     load_links,
     steps_of,
 )
+from loadflow.stages.turning import is_parked
 
 _TRIES = 200  # samples of a start that are asked for the first film
 
@@ -87,7 +89,7 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
         {
             bearing: with_running(
                 scene,
-                _moving(scene, bearing, loads, shaft.sel(bearing=bearing)),
+                _moving(scene, bearing, loads, shaft.sel(bearing=bearing), is_parked(case)),
             )
             for bearing in scene.journal.bearings
         }
@@ -184,9 +186,16 @@ def _bounds(path: xr.Dataset) -> dict[str, float]:
     return {name: path.attrs[name] for name in RESOLVED if name in path.attrs}
 
 
-def _moving(scene: Scene, bearing: str, loads: xr.Dataset, reactions: xr.Dataset) -> xr.Dataset:
+def _moving(
+    scene: Scene, bearing: str, loads: xr.Dataset, reactions: xr.Dataset, parked: bool
+) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
     options = scene.journal.at(bearing)
+    held, warm = options, None
+    if parked and isinstance(options.heat, Heat) and options.heat.stands_as_it_enters:
+        # what it loses as it slips in its brake warms no oil; a balance is sought in vain for long
+        warm = options.heat.inlet_temperature
+        held = options.at_temperature(warm)
     every = slice(None, None, options.every(time_step(loads)))
     loads, reactions = loads.isel(time=every), reactions.isel(time=every)
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
@@ -199,17 +208,19 @@ def _moving(scene: Scene, bearing: str, loads: xr.Dataset, reactions: xr.Dataset
     if begin < time.size:
         try:
             past = AT_REST if begin else past_of(scene, loads)
-            path = follow(options, loads.isel(time=left), reactions.isel(time=left), start, past)
+            path = follow(held, loads.isel(time=left), reactions.isel(time=left), start, past)
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
         about = _bounds(path)
-        if "clearance" in found:
-            warm = float(path["temperature"].values[0])
-            found["clearance"][left] = options.at_temperature(warm).geometry.clearance
         viscosity = np.asarray(options.lubricant.viscosity)
         if options.heat is not None:
-            viscosity = np.asarray(options.heat.liquid.viscosity(path["temperature"].values))
+            if warm is not None:
+                found["temperature"][left] = warm
+            viscosity = np.asarray(options.heat.liquid.viscosity(found["temperature"][left]))
+        if "clearance" in found:
+            grown = options.at_temperature(float(found["temperature"][left][0]))
+            found["clearance"][left] = grown.geometry.clearance
         found["sommerfeld_number"][left] = options.geometry.sommerfeld_number(
             np.hypot(*force[left].T), speed[left], viscosity
         )

@@ -33,6 +33,7 @@ from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.thrust import samples_of, solved
+from loadflow.stages.turning import SLOWEST, is_parked, turning
 
 Floats = NDArray[np.float64]
 
@@ -45,8 +46,12 @@ STEPS = 360
 SETTLED = 60
 """Of these, the first ones that still show where an orbit began; they are dropped."""
 
-AT_REST = 16
+AT_REST = 8
 """Of the others, how many are solved at rest."""
+
+STIFF = 0.01
+"""Opening of the gap over the clearance below which a shell lends a film no load to carry: about
+what it takes to move ε by a hundredth."""
 
 CONTACTS = 12
 """Samples of a rolling bearing, from the mildest to the hardest."""
@@ -54,16 +59,21 @@ CONTACTS = 12
 
 @dataclass(frozen=True)
 class Probe:
-    """How a model is probed: the stages whose series it reads, and what it answers."""
+    """How a model is probed: the stages whose series it reads, and what it answers.
+
+    It is not asked in a case in which it cannot answer, and the effects stand by their indicators.
+    """
 
     reads: tuple[str, ...]
     answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
+    can_answer: Callable[[Case, Mapping[str, Any]], bool] = lambda case, inputs: True
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
     """Return the cases of the largest steady load per speed and of the largest load, estimated.
 
-    Of given series only the wind speed is known: the lowest and the highest are taken.
+    A parked one has no speed: it counts with its load, or if all are parked. Of given series only
+    the wind speed is known: the lowest and the highest are taken.
     """
     first = {case.wind_speed: case for case in reversed(cases)}
     speeds = sorted(first)
@@ -72,7 +82,9 @@ def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
     else:
         at = situation(scene, cases)
         bearings = at.bearings.values()
-        steady = np.max([one.radial for one in bearings], axis=0) / at.speed
+        parked = np.array([is_parked(first[speed]) for speed in speeds])
+        per_speed = np.max([one.radial for one in bearings], axis=0) / at.speed
+        steady = np.where(parked & ~parked.all(), 0.0, per_speed)
         largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
         places = [int(np.argmax(steady)), int(np.argmax(largest))]
     return [first[speeds[place]] for place in dict.fromkeys(places)]
@@ -92,6 +104,11 @@ def _of_shaft(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     }
 
 
+def _film_forms(case: Case, inputs: Mapping[str, Any]) -> bool:
+    """Whether the shaft turns at all: one that stands rests on what no pilot needs to ask."""
+    return bool(turning(inputs["loads"], is_parked(case)).any())
+
+
 def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     """Extremes and mean friction of each film around its largest load per speed that has one."""
     found: Answers = {}
@@ -100,11 +117,9 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
         loads, shaft = inputs["loads"], inputs["shaft"].sel(bearing=bearing)
         force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
         speed = np.abs(loads["speed"].values.astype(float))
-        load = np.where(
-            _has_film(journal, shaft, speed), np.hypot(*force.T) / np.maximum(speed, 1e-12), 0.0
-        )
-        begin = max(0, min(int(np.argmax(load)) - 3 * STEPS // 4, load.size - STEPS))
-        stretch = slice(begin, begin + STEPS)
+        formed = _has_film(journal, shaft, speed)
+        load = np.where(formed, np.hypot(*force.T) / np.maximum(speed, 1e-12), 0.0)
+        stretch = _around(int(np.argmax(load)), formed)
         loads, shaft = loads.isel(time=stretch), shaft.isel(time=stretch)
         if journal.in_motion:
             film = follow(journal, loads, shaft).isel(time=slice(_settled(loads), None))
@@ -115,21 +130,58 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     return found
 
 
+def _around(worst: int, formed: NDArray[np.bool_]) -> slice:
+    """`STEPS` samples, three quarters of them before the worst, that begin and end with a film.
+
+    While the shaft stands before a start and after a stop, what it rests on is the same with and
+    without most effects, and nothing without asperities.
+    """
+    begin = max(0, min(worst - 3 * STEPS // 4, formed.size - STEPS))
+    begin += int(np.argmax(formed[begin:]))
+    places = np.flatnonzero(formed[begin : begin + STEPS])
+    return slice(begin, begin + int(places[-1]) + 1)
+
+
 def _settled(loads: xr.Dataset) -> int:
     """First sample of a stretch that counts: `SETTLED`, or the middle of a series that is short."""
     return min(SETTLED, loads.sizes["time"] // 2)
 
 
 def _has_film(journal: Journal, shaft: xr.Dataset, speed: Floats) -> NDArray[np.bool_]:
-    """Whether a sample turns, and a film carries it for certain, else perhaps.
+    """Whether a sample turns, and a smooth film carries it for certain.
 
-    A shaft that lies has no film, and where it nearly does a search for one takes seconds.
+    If it carries none for certain, those that it may carry; if it carries none at all, those that
+    turn. A shaft that lies has no film, and where it nearly does a search for one takes seconds, in
+    a shell most. Asperities do not count, so that the samples stay as they are switched.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The film is smooth, and carries none.
     """
-    smooth = journal.model_copy(update={"contact": None})  # the same samples with and without
     vectors = shaft["force"].transpose("time", "axis").values.astype(float)
-    turning = (speed > 0.01 * speed.max()) & ~surely_touching(smooth, vectors, speed)
-    light = turning & surely_carried(smooth, vectors, speed)
-    return light if light.any() else turning
+    smooth = journal.model_copy(update={"contact": None})
+    if _hardly_gives(journal, float(np.hypot(*to_film(vectors).T).max())):
+        smooth = smooth.model_copy(update={"shell": None})
+    turns = speed > max(0.01 * speed.max(), SLOWEST)
+    light = turns & surely_carried(smooth, vectors, speed)
+    if light.any():
+        return np.asarray(light)
+    carried = turns & ~surely_touching(smooth, vectors, speed)
+    if carried.any():
+        return np.asarray(carried)
+    if journal.contact is None:
+        raise SolverError("shaft and shell touch in all samples")
+    return np.asarray(turns)
+
+
+def _hardly_gives(journal: Journal, load: float) -> bool:
+    """Whether a load, N, spread over the bore, opens the gap by less than a share of `STIFF`."""
+    size, shell = journal.geometry, journal.shell
+    if shell is None:
+        return True
+    pressure = load / (size.diameter * size.width)
+    return bool(pressure * getattr(shell, "compliance", np.inf) < STIFF * size.clearance)
 
 
 def _at_rest(journal: Journal, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Dataset:
@@ -199,7 +251,7 @@ def _of_collars(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
 PROBES: dict[str, Probe] = {
     "loads": Probe((), _of_rotor),
     "shaft": Probe(("loads",), _of_shaft),
-    "journal": Probe(("loads", "shaft"), _of_film),
+    "journal": Probe(("loads", "shaft"), _of_film, _film_forms),
     "thrust": Probe(("loads", "shaft"), _of_collars),
     "rolling": Probe(("loads", "shaft"), _of_contacts),
 }

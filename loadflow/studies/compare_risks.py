@@ -14,10 +14,10 @@ from loadflow.cube.hdf5 import read_variables
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.scene.wear import check_wear
-from loadflow.stages.film_summary import STANDING
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
+from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import count_of
 from loadflow.studies.compare_factor import reduced_samples
 from loadflow.studies.compare_result import Number
@@ -140,7 +140,7 @@ def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> N
     least, light, total = (math.inf, "", "", math.nan, 0.0), 0.0, 0.0
     for place, case, some in _samples(scene, folder):
         bearing = scene.rolling.geometries[place]
-        turning = np.abs(some["speed"].values) >= STANDING
+        turning = np.abs(some["speed"].values) >= SLOWEST
         load = _equilibrium(scene, place, some).equivalent_load / bearing.rated_capacity
         load = np.where(turning, load, np.inf)
         weight, limit = some["weight"].values, LIGHT[bearing.element]
@@ -167,9 +167,9 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     stands, worst = np.zeros(table.sizes["case"]), (0.0, "", "", math.nan)
     for k, case in enumerate(table["case"].values.tolist()):
         series = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
-        stands[k] = float((np.abs(series["speed"].values) < STANDING).mean())
+        stands[k] = float((np.abs(series["speed"].values) < SLOWEST).mean())
     for place, case, some in _samples(scene, folder):
-        still = np.abs(some["speed"].values) < STANDING
+        still = np.abs(some["speed"].values) < SLOWEST
         if still.any():
             pressure = _equilibrium(scene, place, some).maximum_pressure
             k = int(np.argmax(np.where(still, pressure, -np.inf)))

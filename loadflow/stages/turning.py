@@ -1,0 +1,46 @@
+"""Whether a shaft turns: films of one that stands are those of what it rests on."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from loadflow.scene.cases import Case
+from loadflow.wind.cases import LOAD_CASES
+
+SLOWEST = 0.01 * np.pi / 30
+"""Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
+[Jonuschies 2015]."""
+
+SWING = 0.2
+"""Angle, rad, within which a shaft that stands may swing: a brake holds it by an elastic
+drivetrain, and slips in gusts (0.14 rad in 36 s after a fault at 24 m/s). So short an arc, beside
+the loaded one of some π, draws no film in: the surfaces rest on each other."""
+
+
+def is_parked(case: Case) -> bool:
+    """Whether a brake holds the shaft throughout, though a storm may pull it through its brake."""
+    return case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].parked
+
+
+def turning(samples: xr.Dataset, parked: bool = False) -> NDArray[np.bool_]:
+    """Whether the shaft turns, at each sample: one that swings in its brake stands.
+
+    A `parked` one stands, however it swings and slips. Without a ``speed`` it turns.
+    """
+    if "speed" not in samples:
+        return np.full(samples["converged"].shape, not parked)
+    speed = samples["speed"].values
+    moves = (np.abs(speed) >= SLOWEST) & (not parked)
+    if "time" in samples:
+        moves &= ~_swinging(samples["time"].values, speed)
+    return np.asarray(moves)
+
+
+def _swinging(time: np.ndarray, speed: np.ndarray) -> NDArray[np.bool_]:
+    """From where on a shaft has turned back and only swings, to the end of the series."""
+    turned = np.append(0.0, np.cumsum(0.5 * (speed[1:] + speed[:-1]) * np.diff(time)))
+    most, least = (of.accumulate(turned[::-1])[::-1] for of in (np.maximum, np.minimum))
+    back = np.append(False, speed[1:] * speed[:-1] < 0.0) & (most - least < SWING)
+    return np.asarray(np.logical_or.accumulate(back))
