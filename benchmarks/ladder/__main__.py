@@ -21,6 +21,7 @@ from benchmarks.ladder.bearings import (
     measure_reduction,
     measure_rolling,
 )
+from benchmarks.ladder.comparison import measure_comparison
 from benchmarks.ladder.figures import draw
 from benchmarks.ladder.friction import measure_friction
 from benchmarks.ladder.life import measure_life
@@ -48,7 +49,11 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
     "rolling": measure_rolling,
     "life": measure_life,
     "friction": measure_friction,
+    "comparison": measure_comparison,
 }
+
+KINDS = {"comparison"}
+"""Tables whose rows are kinds of bearing, no alternatives: they have no picture."""
 
 GAINING = {"journal": "journal", "thrust": "thrust", "rolling": "rolling", "friction": "rolling"}
 """Stages whose answers have gains, and the bearing whose gains are measured with them."""
@@ -109,7 +114,7 @@ def _section(stage: str, rungs: Rungs) -> Iterator[str]:
     measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
     if measured:
         yield from _errors(measured)
-    if len(measured) > 1:
+    if len(measured) > 1 and stage not in KINDS:
         yield f"\n![error over time of the rungs of the stage {stage}]({_figure(stage)})"
     yield ""
 
@@ -121,7 +126,7 @@ def _figure(stage: str) -> str:
 
 def _draw(ladder: dict[str, Rungs]) -> None:
     for stage, rungs in ladder.items():
-        if sum(bool(entry["errors"]) for entry in rungs.values()) > 1:
+        if stage not in KINDS and sum(bool(entry["errors"]) for entry in rungs.values()) > 1:
             draw(stage, rungs, DOC.parent / _figure(stage))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -12,14 +13,18 @@ from benchmarks.ladder.measuring import (
     Entry,
     Errors,
     Rungs,
+    label,
+    on_cases,
     rounded,
     sentence,
     with_ratios,
 )
 from loadflow.journal.thrust_curves import CollarCurves, CollarFilms
+from loadflow.running.candidates import candidates_for
 from loadflow.scene.scene import Scene
-from loadflow.scene.thrust import ThrustCollar
+from loadflow.scene.thrust import ConePair, ThrustCollar
 from loadflow.stages import thrust
+from loadflow.stages.frames import to_rolling
 
 FILM = ("minimum_film", "maximum_pressure", "friction_power")
 FORCES = (1e5, 3e5, 6e5, 9e5, 1.2e6)  # N, from little wind to the largest thrust
@@ -62,7 +67,71 @@ def measure_thrust(bench: Bench) -> Rungs:
                 "error": sentence(found, *(name.replace("_", " ") for name in FILM)),
             }
             rungs[thrust.rung_key(chosen)] = entry
-    return with_ratios(rungs, thrust.rung_key(at_grid(scene, "grid", thrust.GRIDS[-1])))
+    found = with_ratios(rungs, thrust.rung_key(at_grid(scene, "grid", thrust.GRIDS[-1])))
+    return found | cones(bench)
+
+
+def cones(bench: Bench) -> Rungs:
+    """The sized pair of cones on its grids, under the largest and a middling load of each case.
+
+    No plan chooses between them: a scene names their grid.
+    """
+    scene, loads = _of_cones(bench.scene), [*cone_loads(bench)]
+    finest = CONES[-1]
+    reference = [_cone(scene, finest).solve(*load) for _, *load in loads]
+    rungs: Rungs = {}
+    for grid in CONES[:-1]:
+        one, errors = _cone(scene, grid), Errors()
+        answers = [one.solve(*load) for _, *load in loads]
+        for name in FILM:
+            for (where, *_), ours, best in zip(loads, answers, reference, strict=True):
+                errors.add(name.replace("_", " "), where, getattr(ours, name), getattr(best, name))
+        seconds = seconds_of(lambda one=one: [one.solve(*load) for _, *load in loads], 1)
+        found = errors.summary()
+        rungs[thrust.rung_key(_with(scene, one))] = {
+            "includes": ["both cones, shaft free to tilt", f"{grid[0]}x{grid[1]} cells a segment"],
+            "seconds_per_sample": rounded(seconds / len(loads)),
+            "reference": f"the same on the grid {finest[0]}x{finest[1]}",
+            "cases": f"{on_cases(bench)}; conical-pair of that turbine, two samples of each case",
+            "errors": found,
+            "error": sentence(found, *(name.replace("_", " ") for name in FILM)),
+        }
+    return with_ratios(rungs, [*rungs][-1])
+
+
+CONES = ((20, 10), (40, 20), (80, 40))
+
+
+def _of_cones(scene: Scene) -> Scene:
+    """The scene with the sized pair of cones alone."""
+    found = candidates_for(scene)[0]["conical-pair"]
+    return scene.model_copy(update={"thrust": found.thrust})
+
+
+def _cone(scene: Scene, grid: tuple[int, int]) -> ConePair:
+    [one] = scene.thrust.bearings.values()
+    assert isinstance(one, ConePair)
+    return one.model_copy(update={"grid": grid})
+
+
+def _with(scene: Scene, one: ConePair) -> Scene:
+    section = scene.thrust.model_copy(update={"bearings": {"M": one}})
+    return scene.model_copy(update={"thrust": section})
+
+
+def cone_loads(bench: Bench) -> Iterator[tuple[str, np.ndarray, np.ndarray, float]]:
+    """Name, force, moment and speed of the most pressed sample and of the median of each case."""
+    one = _cone(_of_cones(bench.scene), CONES[0])
+    for case, parts in bench.series.items():
+        shaft = parts["shaft"].sel(bearing="M")
+        force, moment = (
+            to_rolling(shaft[name].transpose("time", "axis").values.astype(float))
+            for name in ("force", "moment")
+        )
+        order = np.argsort(one.normal_load(force, moment))
+        for words, k in (("largest load", order[-1]), ("median load", order[order.size // 2])):
+            speed = float(parts["loads"]["speed"].values[k])
+            yield f"{label(case)}, {words}", force[k], moment[k], speed
 
 
 def points(speeds: tuple[float, ...]) -> list[tuple[float, float]]:
@@ -112,12 +181,17 @@ def _seconds(scene: Scene, rung: str, repeat: int) -> float:
 
 
 def thrust_gains(bench: Bench, step: float) -> dict[str, float]:
-    """Largest |d ln(answer)/d ln(load)| of the collar over the points."""
+    """Largest |d ln(answer)/d ln(load)| of the collar over the points, and of the pair of cones."""
     speeds, grid = bench.setting.speeds, thrust.GRIDS[1]
     more, less = (films(bench.scene, "grid", grid, speeds, r) for r in (step**0.5, step**-0.5))
+    found = {name: float(np.max(np.abs(np.log(more[name] / less[name])))) for name in FILM}
+    one = _cone(_of_cones(bench.scene), CONES[0])
+    for _, force, moment, speed in cone_loads(bench):
+        heavy, light = (one.solve(force * r, moment * r, speed) for r in (step**0.5, step**-0.5))
+        for name in FILM:
+            change = abs(np.log(getattr(heavy, name) / getattr(light, name)))
+            found[name] = max(found[name], float(change))
     return {
-        name.replace("_", " "): rounded(
-            float(np.max(np.abs(np.log(more[name] / less[name]))) / np.log(step))
-        )
-        for name in FILM
+        name.replace("_", " "): rounded(change / float(np.log(step)))
+        for name, change in found.items()
     }

@@ -38,6 +38,13 @@ def compare(
         list[str] | None,
         typer.Option("--candidate", help="Name of one to compare, may be repeated; default all."),
     ] = None,
+    starts: Annotated[
+        float | None,
+        typer.Option(
+            "--starts",
+            help="Starts, stops and faults of each design load case in the life, for wear.",
+        ),
+    ] = None,
     out_folder: OutFolder = Path("runs"),
     name: RunName = None,
     workers: Workers = 0,
@@ -61,6 +68,7 @@ def compare(
             asked,
             out=out_folder,
             candidates=candidate,
+            starts=starts,
             workers=workers or usable_cores(),
             scheduler=scheduler,
             overwrite=overwrite,

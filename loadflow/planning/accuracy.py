@@ -12,12 +12,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from loadflow.planning.effects import Estimates
-from loadflow.planning.ladder import gains, measured
+from loadflow.planning.ladder import gains, ladder, measured
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.registry import giving, models
-from loadflow.stages.stage import Link, Rungs
+from loadflow.stages.stage import Link, Rungs, load_links
 
 Errors = dict[str, dict[str, float | None]]
 """By result and quantity; None where not measured."""
@@ -49,6 +49,76 @@ def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
         }
         for result in scene.results
     }
+
+
+_FEW = {
+    "friction power": "friction power",
+    "friction torque": "friction power",
+    "film parameter": "film parameter",
+    "smallest load": "equivalent load",
+}
+"""What a comparison takes from few samples in ideal rolling, and whose gain it has with the load;
+the torques of catalogues have that of the power."""
+
+
+def errors_beside(scene: Scene, known: Estimates) -> Errors:
+    """Return the error of what a comparison makes of a run beside its results, by quantity.
+
+    No accuracy is asked of these. Of rolling bearings the ladder holds what few samples in ideal
+    rolling are off; shares of a load, and the tilt of the shaft, follow the load as it is. Effects
+    that are left out count where they move the load, or the side flow itself.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its models.
+    known : Estimates
+        Sizes of effects.
+    """
+
+    def of(result: str, quantity: str, *links: Link) -> float | None:
+        return total(contributions(scene, result, quantity, links, known))
+
+    found: Errors = {}
+    whole = of("shaft.tilt", "tilt", *load_links("bearing load max", of_load=False))
+    found["shaft.tilt"] = {"tilt": whole}
+    if scene.wants("journal") and scene.journal.in_motion:
+        links = *load_links("radial force max"), Link("journal", "side flow")
+        found["journal.film"] = {"side flow": of("journal.film", "side flow", *links)}
+    if scene.wants("thrust"):
+        few = _few_samples("cones" if _has_cones(scene) else "collar")
+        found["thrust.film"] = {
+            name: _plus(
+                of("thrust.film", name, *load_links("bearing load max"), Link("thrust", name)),
+                few.get(name),
+            )
+            for name in ("minimum film", "maximum pressure", "friction power")
+        }
+    if scene.wants("rolling"):
+        kinds = {one.friction_model for one in scene.rolling.geometries.values()}
+        few = _few_samples("balls" if kinds == {"balls"} else "rollers")
+        reached = {
+            name: of("rolling.friction", gain, *load_links("bearing load max"))
+            for name, gain in _FEW.items()
+        } | {"row share": whole}
+        found["rolling.friction"] = {
+            name: _plus(share, few.get(name)) for name, share in reached.items()
+        }
+    return found
+
+
+def _few_samples(kind: str) -> dict[str, float]:
+    """What the few samples of a comparison are off, at most, by quantity; empty: not measured."""
+    errors = ladder().get("comparison", {}).get(kind, {}).get("errors", {})
+    return {name: float(error["max"]) for name, error in errors.items()}
+
+
+def _has_cones(scene: Scene) -> bool:
+    return len(scene.thrust.collars) < len(scene.thrust.bearings)
+
+
+def _plus(share: float | None, more: float | None) -> float | None:
+    return None if share is None or more is None else share + more
 
 
 def total(parts: Iterable[Part]) -> float | None:

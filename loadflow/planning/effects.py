@@ -67,6 +67,13 @@ class Estimates:
     indicators: Mapping[str, Sizes] = field(default_factory=dict)
     verdict: EffectVerdict | None = None
 
+    @classmethod
+    def of_manifest(cls, manifest: Mapping[str, Any]) -> Estimates:
+        """Those that a run was decided with, as its manifest tells them."""
+        effects = manifest.get("effects", [])
+        sizes = {one["name"]: one["size"] for one in effects if one["size"] is not None}
+        return cls({one["name"]: one["indicator"] for one in effects}, EffectVerdict(sizes))
+
     def size(self, effect: Effect, quantity: str) -> float:
         """Share by which an answer changes without an effect; 0 of what it does not move."""
         return self.sizes(effect).get(quantity, 0.0)

@@ -16,7 +16,8 @@ from loadflow.report.sketch import sketch
 class Cell:
     """A cell of the table: the value, what is known of its error, and where it is from.
 
-    `link` leads to the extreme in the depth of the page.
+    `link` leads to the extreme in the depth of the page, `missing` says what is not known of its
+    error, and why.
     """
 
     value: str
@@ -27,6 +28,7 @@ class Cell:
     note: str = ""
     state: str = ""
     link: str = ""
+    missing: tuple[tuple[str, str], ...] = ()
 
 
 def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
@@ -65,6 +67,7 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         groups=groups.items(),
         silent=silent,
         behind=behind.items(),
+        missing=_all_missing(data),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
@@ -81,6 +84,23 @@ def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | Non
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
+
+
+def _all_missing(data: Mapping[str, Any]) -> list[tuple[str, list[str]]]:
+    """What of interval, error and band any number lacks, and the reasons with their rows.
+
+    For print, and where nothing points.
+    """
+    found: dict[str, dict[str, list[str]]] = {}
+    for key, about in data["quantities"].items():
+        for one in data["candidates"]:
+            for what, why in one["numbers"].get(key, {}).get("missing", {}).items():
+                rows = found.setdefault(what, {}).setdefault(why, [])
+                rows += [about["name"]] if about["name"] not in rows else []
+    return [
+        (what, [f"{why} ({', '.join(rows)})" for why, rows in whys.items()])
+        for what, whys in found.items()
+    ]
 
 
 def _tells_nothing(key: str, data: Mapping[str, Any]) -> str | None:
@@ -119,7 +139,8 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
     around = ", ".join(part for part in (seeds, error) if part)
     link = f"#{name}" if _is_extreme(number) else ""
     where, note = _where(number | {"note": ""}), number["note"]
-    return Cell(short(number["value"]), around, band, limit, where, note, state, link)
+    missing = tuple(number.get("missing", {}).items())
+    return Cell(short(number["value"]), around, band, limit, where, note, state, link, missing)
 
 
 def _by_seeds(number: Mapping[str, Any]) -> str:

@@ -16,6 +16,8 @@ import xarray as xr
 
 from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import LoadflowError
+from loadflow.planning.accuracy import errors_beside
+from loadflow.planning.effects import Estimates
 from loadflow.planning.plan import Plan, make_plan
 from loadflow.report.compare_page import write_comparison
 from loadflow.running.candidates import candidate_scene, candidates_for, chosen_of
@@ -28,7 +30,8 @@ from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Candidate, Scene, read_scene
 from loadflow.storage import write_text
-from loadflow.studies.compare import Finished, compared, judged
+from loadflow.studies.compare import compared, judged
+from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_result import Comparison, Judged
 from loadflow.studies.compare_words import bearings
 from loadflow.studies.load_spectrum import load_spectrum
@@ -75,6 +78,7 @@ def compare(
     *,
     out: str | Path = "runs",
     candidates: list[str] | None = None,
+    starts: float | None = None,
     workers: int = 1,
     scheduler: str | None = None,
     overwrite: bool = False,
@@ -92,6 +96,9 @@ def compare(
         are missing; each candidate has a run of its own below it, taken up again where it was.
     candidates : list of str, optional
         Names of those to compare; default all.
+    starts : float, optional
+        Starts, stops and faults of each design load case in the life, for the wear of the shells,
+        in place of ``wear.events`` and ``wear.counts``; what ``lifetime.per_year`` says stays.
     workers, scheduler, overwrite, progress
         As of `loadflow.run`.
 
@@ -103,10 +110,13 @@ def compare(
     Raises
     ------
     loadflow.errors.InputError
-        No candidate that the shaft has places for, or one that is not known.
+        No candidate that the shaft has places for, or one that is not known; `starts` of a scene
+        without a law of wear.
     loadflow.errors.LoadflowError
         No candidate has an answer.
     """
+    if starts is not None:
+        scene = scene.model_copy(update={"wear": scene.wear.with_events(starts)})
     known, without_place = candidates_for(scene)
     chosen = chosen_of(known, candidates)
     with executor(workers, scheduler) as where:
@@ -275,7 +285,7 @@ def run_candidates(
         except LoadflowError as error:
             failures[name] = str(error)
             continue
-        manifest = read_manifest(place)
+        manifest = _with_errors_beside(read_manifest(place), read_scene(place / "scene.toml"))
         tables = {key: node.to_dataset().load() for key, node in result.tree.children.items()}
         finished.append(
             Finished(name, candidate.title, candidate.source, own, tables, manifest, place)
@@ -284,6 +294,15 @@ def run_candidates(
         lines = "\n".join(f"  {name}: {why}" for name, why in failures.items())
         raise LoadflowError(f"no candidate has an answer:\n{lines}")
     return finished, failures
+
+
+def _with_errors_beside(manifest: dict[str, Any], ran: Scene) -> dict[str, Any]:
+    """A manifest with the errors of what only a comparison tells, too, or tells by few samples."""
+    told: dict[str, Any] = dict(manifest.get("expected_errors", {}))
+    for result, errors in errors_beside(ran, Estimates.of_manifest(manifest)).items():
+        planned = told.get(result, {})
+        told[result] = errors | {k: v for k, v in planned.items() if isinstance(v, int | float)}
+    return manifest | {"expected_errors": told}
 
 
 def _base(scene: Scene) -> Scene:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import BaseModel, Field
 
+from loadflow.errors import InputError
 from loadflow.journal.wear import Wear as WearModel
 from loadflow.scene.journal import Journal
 from loadflow.scene.section import Section
 from loadflow.scene.shaft import Shaft
 from loadflow.tribology import Archard, Fleischer, RunningIn
 
-Count = Annotated[float, Field(ge=0, le=1e9)]
+MOST = 1e9
+"""Events in a life, at most."""
+
+Count = Annotated[float, Field(ge=0, le=MOST)]
 
 
 class Wear(Section, BaseModel):
@@ -49,6 +53,32 @@ class Wear(Section, BaseModel):
     def count(self, dlc: str) -> float:
         """How often a design load case happens in the life."""
         return self.counts.get(dlc, self.events)
+
+    def with_events(self, events: float) -> Self:
+        """The same with another number of starts, stops and faults, also of those in ``counts``.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            There is no law of wear that they could follow, or no such number.
+
+        Examples
+        --------
+        >>> from loadflow.scene import make_scene
+        >>> scene = make_scene({"name": "life", "wear": {"law": {"coefficient": 1e-17}}})
+        >>> scene.wear.with_events(5000).count("3.1")
+        5000.0
+        """
+        if self.law is None:
+            raise InputError(
+                "starts: without wear.law nothing wears; state [wear] with a law, and contact of "
+                "the journal bearings"
+            )
+        if not 0 <= events <= MOST:
+            raise InputError(f"starts: must be from 0 to {MOST:g}, got {events:g}")
+        changed = self.model_copy(update={"events": float(events), "counts": {}})
+        changed.model_fields_set.discard("counts")
+        return changed
 
     @property
     def model(self) -> WearModel:

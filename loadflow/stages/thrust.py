@@ -201,16 +201,15 @@ GRIDS = ((20, 10), (40, 20), (80, 40))
 
 
 def rung_key(scene: Scene) -> str:
-    """Rung of the collars and their grid: the finest of `GRIDS` that theirs is not coarser than.
+    """Rung of the films and their grid: the finest of `GRIDS` that theirs is not coarser than.
 
-    Pairs of cones beside them, or alone, have no rung in the ladder.
+    Of collars beside a pair of cones, that of the pair.
     """
-    if len(scene.thrust.collars) < len(scene.thrust.bearings):
-        return "pair of cones"
-    around, across = scene.thrust.grid
+    pairs = [one for one in scene.thrust.bearings.values() if one.kind != "thrust"]
+    around, across = min((one.grid for one in pairs), default=scene.thrust.grid)
     held = [grid for grid in GRIDS if grid[0] <= around and grid[1] <= across]
     around, across = held[-1] if held else (around, across)
-    return f"{scene.thrust.rung}, {around}x{across}"
+    return f"{'pair of cones' if pairs else scene.thrust.rung}, {around}x{across}"
 
 
 def _better(scene: Scene) -> dict[str, Any]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -25,6 +25,15 @@ from loadflow.studies.compare_margins import (
     margin_of,
     row_shares,
 )
+from loadflow.studies.compare_numbers import (
+    Finished,
+    against,
+    error_of,
+    extreme,
+    lifetime_mean,
+    seeds_of,
+    shares_of,
+)
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
@@ -38,46 +47,14 @@ from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
-from loadflow.studies.run_lifetime import energy_per_year, known_shares
+from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict, from_dataset
 
-Sense = Literal["most", "least", "sum"]
+_OF_CONES = "at rest and at one temperature, which the error by models does not count"
 
 _POWER_OF = {"journal": "journal.film", "thrust": "thrust.film"}
 """Result that knows the friction of a room."""
-
-
-@dataclass(frozen=True)
-class Finished:
-    """A candidate that was run.
-
-    Attributes
-    ----------
-    name, title, source : str
-        Of the candidate.
-    scene : Scene
-        What was run.
-    tables : mapping
-        Its results by stage.
-    manifest : mapping
-        How its numbers came about.
-    folder : Path
-        Of its run.
-    """
-
-    name: str
-    title: str
-    source: str
-    scene: Scene
-    tables: Mapping[str, xr.Dataset]
-    manifest: Mapping[str, Any]
-    folder: Path
-
-    @property
-    def rooms(self) -> list[str]:
-        """What kinds of bearing it has results of."""
-        return [room for room in ("journal", "thrust", "rolling") if room in self.tables]
 
 
 def compared(
@@ -148,7 +125,7 @@ def _numbers(
     run: Finished, verdicts: Sequence[Verdict], margin: Margin
 ) -> Iterator[tuple[str, Number]]:
     """Yield the numbers of a candidate by quantity."""
-    error = _error(run, *margin.models) / abs(margin.power) if margin.power else math.nan
+    error = error_of(run, *margin.models) / abs(margin.power) if margin.power else math.nan
     yield "load_factor", Number(
         margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
         holds=margin.factor >= 1, case=margin.case, time=margin.time, place=margin.place,
@@ -164,9 +141,12 @@ def _numbers(
     if math.isnan(tilt.share):
         yield "tilt", Number(math.nan, "%", note=tilt.note)
         return
-    low, high = _seeds(run, tilt.by_case, lambda seen: 100 * max(seen))
+    low, high = seeds_of(run, tilt.by_case, lambda seen: 100 * max(seen))
+    error = error_of(run, "shaft.tilt", "tilt")
+    if "journal" in run.tables:  # which allows what closes its smallest film
+        error += error_of(run, "journal.film", "minimum film")
     yield "tilt", Number(
-        100 * tilt.share, "%", low, high, limit=100.0, holds=tilt.share <= 1, case=tilt.case,
+        100 * tilt.share, "%", low, high, error, limit=100.0, holds=tilt.share <= 1, case=tilt.case,
         time=tilt.time, place=tilt.place, note=tilt.note,
     )  # fmt: skip
 
@@ -181,23 +161,25 @@ def in_wide_bore(ratio: Number, scene: Scene) -> Number:
 def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
     table = run.tables["journal"]
     groups = Groups.of(table)
-    film = _extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
-    yield "minimum_film", _against(film, verdicts, "smallest film", 1e6)
+    film = extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
+    yield "minimum_film", against(film, verdicts, "smallest film", 1e6)
     if film.place:
         yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
-    ratio = _extreme(run, table, groups, name, "most", 1.0, "–", model)
-    ratio = _against(ratio, verdicts, "eccentricity ratio ε", 1.0)
+    ratio = extreme(run, table, groups, name, "most", 1.0, "–", model)
+    ratio = against(ratio, verdicts, "eccentricity ratio ε", 1.0)
     yield "eccentricity_ratio", in_wide_bore(ratio, run.scene)
     name, model = "largest_pressure", "maximum pressure"
-    pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
-    yield "film_pressure", _against(pressure, verdicts, "largest film pressure", 1e-6)
-    share = _shares(run, table)
+    pressure = extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
+    yield "film_pressure", against(pressure, verdicts, "largest film pressure", 1e-6)
+    share = shares_of(run, table)
     flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
     none = "" if flow.any() else "no oil leaves the film"
-    yield "oil_flow", _mean(run, flow, share, groups, "l/min", none)
+    error = error_of(run, "journal.film", "side flow")
+    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", none), error=error)
     power, note = supply_power(table)
-    yield "pump", _mean(run, power / 1e3, share, groups, "kW", note)
+    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
+    yield "pump", replace(pump, error=error)
     yield "mixed_time", _mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
     yield from _lost(run, table, table["lost_power"], "")
@@ -206,14 +188,16 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
 def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
     """Films of a thrust bearing beside journal bearings, or of a pair of cones in their place."""
     table = run.tables["thrust"]
-    groups, share = Groups.of(table), _shares(run, table)
+    groups, share = Groups.of(table), shares_of(run, table)
     own = [v for v in verdicts if v.subject.startswith(("thrust ", "conical-pair "))]
     beside = "journal" in run.tables
-    film = _extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
-    film = _against(film, own, "smallest film", 1e6)
+    film = extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
+    film = against(film, own, "smallest film", 1e6)
     name, model = "largest_pressure", "maximum pressure"
-    pressure = _extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
-    pressure = _against(pressure, own, "largest film pressure", 1e-6)
+    pressure = extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
+    pressure = against(pressure, own, "largest film pressure", 1e-6)
+    if not beside:
+        film, pressure = (replace(number, note=_OF_CONES) for number in (film, pressure))
     yield ("thrust_film" if beside else "minimum_film"), film
     yield ("thrust_pressure" if beside else "film_pressure"), pressure
     if beside:
@@ -223,7 +207,7 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
         yield "film_to_roughness", _over_roughness(film, bearing)
         yield "eccentricity_ratio", clearance_used(film, bearing)
     yield "mixed_time", _mixed_time(run, table, share, groups)
-    yield from _lost(run, table, table["lost_power"], "")
+    yield from _lost(run, table, table["lost_power"], _OF_CONES)
 
 
 def _bores(run: Finished) -> dict[str, xr.Dataset]:
@@ -249,21 +233,21 @@ def _mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Gro
     touching = float(table["contact_time"].sum())
     note = "" if part.any() else "no film is in contact or above E_krit while turning"
     note = f"in contact for {touching:.3g} s of all cases together" if touching else note
-    return _mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
+    return lifetime_mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
 
 
 def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
     table = run.tables["rolling"]
     groups = Groups.of(table)
     name, model = "bearing_design_safety", "maximum force"
-    safety = _extreme(run, table, groups, name, "least", 1.0, "–", model)
-    yield "static_safety", _against(safety, verdicts, "static rating over the design load", 1.0)
+    safety = extreme(run, table, groups, name, "least", 1.0, "–", model)
+    yield "static_safety", against(safety, verdicts, "static rating over the design load", 1.0)
     name, model = "bearing_pressure", "maximum pressure"
     yield (
         "contact_pressure",
-        _extreme(run, table, groups, name, "most", 1e-6, "MPa", model),
+        extreme(run, table, groups, name, "most", 1e-6, "MPa", model),
     )
-    share = _shares(run, table)
+    share = shares_of(run, table)
     slope = float(table.attrs["weibull_slope"])
     design = min(part.limits.life for part in run.scene.rolling.bearings.values())
     for key, kind in (("modified_life", "modified_"), ("rating_life", "")):
@@ -273,23 +257,30 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         limit = design / HOURS_PER_YEAR
         worst = int(np.argmax((per_hour * share[:, None]).sum(0)))
         yield key, Number(
-            life, "years", low, high, _error(run, "rolling.life", "life"), limit, life >= limit,
+            life, "years", low, high, error_of(run, "rolling.life", "life"), limit, life >= limit,
             place=str(table["bearing"].values[worst]),
             note="as a system" if table.sizes["bearing"] > 1 else "",
         )  # fmt: skip
     yield from _rows(run)
-    yield from rolling_risks(run.scene, run.folder, table, share)
+    for name, number in rolling_risks(run.scene, run.folder, table, share):
+        few = "smallest load" if name == "minimum_load" else ""
+        yield name, replace(number, error=error_of(run, "rolling.friction", few))
     losses = rolling_losses(run.scene, run.folder)
     if losses is not None:
         speed = losses.speed * 30 / np.pi
-        low, high = _seeds(run, losses.by_case, lambda seen: float(np.median(np.concatenate(seen))))
+        low, high = seeds_of(
+            run, losses.by_case, lambda seen: float(np.median(np.concatenate(seen)))
+        )
         yield "film_parameter", Number(
-            losses.film_parameter, "–", low, high, case=losses.case, time=losses.time,
+            losses.film_parameter, "–", low, high,
+            error_of(run, "rolling.friction", "film parameter"), case=losses.case, time=losses.time,
             place=losses.place, note=f"median below {speed:.3g} 1/min",
         )  # fmt: skip
-        for name, torque in losses.torques.items():
-            own = torque.sel(case=table["case"].values).sum("bearing").values
-            yield name, _mean(run, own, share, groups, "N m")
+        for name, each in losses.torques.items():
+            own = each.sel(case=table["case"].values).sum("bearing").values
+            torque = lifetime_mean(run, own, share, groups, "N m")
+            error = error_of(run, "rolling.friction", "friction torque")
+            yield name, replace(torque, error=error)
     *some, last = "slip of rollers", *uncounted_friction(run.scene)
     left_out = f"{', '.join(some)} and {last}" if some else last
     yield from _lost(run, table, None if losses is None else losses.power, f"without {left_out}")
@@ -306,7 +297,8 @@ def _rows(run: Finished) -> Iterator[tuple[str, Number]]:
     if found is None:
         return
     about: dict[str, Any] = {"case": found.case, "time": found.time, "place": found.place}
-    low, high = _seeds(run, found.by_case, lambda seen: max(seen)[1])
+    about["error"] = error_of(run, "rolling.friction", "row share")
+    low, high = seeds_of(run, found.by_case, lambda seen: max(seen)[1])
     note = f"{100 * found.mean:.0f} % in the mean, with {found.thrust / 1e3:.0f} kN of thrust"
     yield "row_share", Number(100 * found.share, "%", 100 * low, 100 * high, note=note, **about)
     rows = found.rows
@@ -320,7 +312,7 @@ def _lost(
     if power is None:
         yield "energy", Number(math.nan, "MWh", note="no model of friction")
         return
-    share, groups = _shares(run, table), Groups.of(table)
+    share, groups = shares_of(run, table), Groups.of(table)
     result = next(
         (name for room, name in _POWER_OF.items() if room in run.tables), "rolling.friction"
     )
@@ -337,10 +329,10 @@ def _lost(
             compat="override",
         )
     own = power.sel(case=table["case"].values).fillna(0.0)
-    loss = _mean(run, own.sum("bearing").values / 1e3, share, groups, "kW", note)
+    loss = lifetime_mean(run, own.sum("bearing").values / 1e3, share, groups, "kW", note)
     often = xr.DataArray(share, {"case": table["case"].values}, ["case"])
     lost = {name: float((part.fillna(0.0) * often).sum()) for name, part in parts.items()}
-    error = error_together(lost, {name: _error(run, name, "friction power") for name in parts})
+    error = error_together(lost, {name: error_of(run, name, "friction power") for name in parts})
     yield "friction", replace(loss, error=error)
     if "mean_supply_power" in table:
         supply = table["mean_supply_power"].fillna(0.0)
@@ -348,97 +340,6 @@ def _lost(
     energy = float(energy_per_year(run.scene, table, own, share).sum()) / 3.6e9
     scale = energy / loss.value if loss.value else math.nan
     yield "energy", Number(energy, "MWh", loss.low * scale, loss.high * scale, error, note=note)
-
-
-# --- numbers with what is known of their error ----------------------------------------------------
-
-
-def _extreme(
-    run: Finished,
-    table: xr.Dataset,
-    groups: Groups,
-    name: str,
-    sense: Sense,
-    scale: float,
-    unit: str,
-    model: str,
-) -> Number:
-    """Extreme over cases and bearings, with case, time, interval and error."""
-    values = table[name].transpose("case", "bearing").values.astype(float)
-    pick = np.nanmax if sense == "most" else np.nanmin
-    if np.isnan(values).all():
-        return Number(math.nan, unit, note="no case has a value")
-    k, b = np.unravel_index(
-        int(np.nanargmax(values) if sense == "most" else np.nanargmin(values)), values.shape
-    )
-    low, high = interval(groups, lambda some: float(pick(values[some])))
-    times = {"bearing_design_safety": "bearing_design_time"}.get(name, f"{name}_time")
-    when = math.nan
-    if times in table:
-        when = float(table[times].transpose("case", "bearing").values[k, b])
-    result = {"thrust": "thrust.film", "rolling": "rolling.loads"}.get(
-        next(room for room, found in run.tables.items() if found is table), "journal.film"
-    )
-    return Number(
-        float(values[k, b]) * scale, unit, low * scale, high * scale, _error(run, result, model),
-        case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),
-    )  # fmt: skip
-
-
-def _seeds(
-    run: Finished, by_case: Mapping[str, Any], statistic: Callable[[list[Any]], float]
-) -> tuple[float, float]:
-    """Interval of a statistic of what cases have, of those that have something."""
-    table = next(
-        run.tables[room] for room in ("journal", "thrust", "rolling") if room in run.tables
-    )
-    seen = [by_case.get(str(case)) for case in table["case"].values]
-
-    def known(some: np.ndarray) -> float:
-        own = [seen[k] for k in some if seen[k] is not None]
-        return statistic(own) if own else math.nan
-
-    return interval(Groups.of(table), known)
-
-
-def _mean(
-    run: Finished,
-    values: np.ndarray,
-    share: np.ndarray,
-    groups: Groups,
-    unit: str,
-    note: str = "",
-) -> Number:
-    """Mean over the lifetime."""
-
-    def mean(some: np.ndarray) -> float:
-        return float((values[some] * share[some]).sum() / share[some].sum())
-
-    low, high = interval(groups, mean)
-    return Number(mean(np.arange(values.size)), unit, low, high, note=note)
-
-
-def _against(number: Number, verdicts: Sequence[Verdict], quantity: str, scale: float) -> Number:
-    """The number with the limit of the verdict on it, of the bearing nearest to its limit."""
-    own = [v for v in verdicts if v.quantity == quantity]
-    if not own:
-        return number
-    of_place = [v for v in own if v.subject.endswith(f" {number.place}")] or own
-    limit = of_place[0].limit * scale
-    holds = all(v.holds for v in own) if math.isfinite(limit) else None
-    return replace(number, limit=limit, holds=holds)
-
-
-def _error(run: Finished, result: str, quantity: str) -> float:
-    """Error by models that the plan expects, as a share; NaN where it was not measured."""
-    found = run.manifest.get("expected_errors", {}).get(result, {}).get(quantity)
-    return float(found) if isinstance(found, int | float) else math.nan
-
-
-def _shares(run: Finished, table: xr.Dataset) -> np.ndarray:
-    """Share of the lifetime of each case; equal ones where the run could not tell."""
-    share = known_shares(run.tables, table)
-    return np.full(table.sizes["case"], 1 / table.sizes["case"]) if share is None else share
 
 
 def _checks(tables: Mapping[str, xr.Dataset]) -> list[dict[str, Any]]:

@@ -64,8 +64,10 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
 def clearance_used(film: Number, bearing: AnyAxial) -> Number:
     """Share of the clearance that the smallest film of a bearing, µm, leaves: 1 − h_min/c."""
     own = {name: 1.0 - 1e-6 * getattr(film, name) / bearing.clearance for name in _SIDES}
+    left = (1.0 - own["value"]) / own["value"] if own["value"] else math.nan
     return replace(
-        film, value=own["value"], low=own["high"], high=own["low"], unit="–", error=math.nan,
+        film, value=own["value"], low=own["high"], high=own["low"], unit="–",
+        error=left * film.error,
         limit=math.nan, holds=None, note="1 − h_min/c, with the clearance c of the centred cones",
     )  # fmt: skip
 

@@ -29,6 +29,8 @@ class Compared(NamedTuple):
         What it cannot exceed, in `unit`; none falls below 0.
     rule : bool
         Its limit is one of practice, which no verdict of a run counts.
+    no_error, no_band : str
+        Why it has no error by models, or no band by tolerances, of its own.
     """
 
     name: str
@@ -38,11 +40,14 @@ class Compared(NamedTuple):
     at_most: bool = False
     top: float = math.inf
     rule: bool = False
+    no_error: str = ""
+    no_band: str = ""
 
 
 _SHORT, _CAPACITY, _OIL = "In short", "Capacity", "Oil"
 _TORQUE = "Friction torque of rolling bearings beside that of catalogues"
 _BEFORE = "What fails before rating life does"
+_SPEED = "follows the speed of the rotor, of which the ladder has no error"
 
 QUANTITIES: dict[str, Compared] = {
     "load_factor": Compared(
@@ -76,21 +81,25 @@ QUANTITIES: dict[str, Compared] = {
     "row_overload": Compared("the same over an even share", "×", _BEFORE, "rows"),
     "film_parameter": Compared("film parameter Λ at low speed", "–", _BEFORE, "rolling"),
     "viscosity_ratio": Compared(
-        "smallest viscosity ratio κ while turning", "–", _BEFORE, "rolling", rule=True
+        "smallest viscosity ratio κ while turning", "–", _BEFORE, "rolling", rule=True,
+        no_error=_SPEED,
     ),
     "minimum_load": Compared(
         "smallest load over the dynamic capacity (skidding)", "%", _BEFORE, "rolling", rule=True
     ),
     "standstill": Compared(
-        "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling"
+        "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling",
+        no_error=_SPEED, no_band="loads decide it, no tolerance does",
     ),
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
     "mixed_time": Compared(
-        "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR
+        "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR,
+        no_error="the ladder has no error of a time beyond a limit; that of ε tells how near it is",
     ),
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",
         "µm", _BEFORE, "journal", at_most=True, rule=True,
+        no_error="the ladder has none; coefficients of wear differ by 2 to 5 from batch to batch",
     ),
     "friction_torque": Compared("mean friction torque, ours", "N m", _TORQUE, "rolling"),
     "palmgren_torque": Compared("after Palmgren", "N m", _TORQUE, "catalogues"),

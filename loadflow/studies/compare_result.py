@@ -159,7 +159,10 @@ class Judged:
             "thrust": self.thrust,
             "governs": self.governs,
             "change": self.change,
-            "numbers": {key: plain(vars(n)) for key, n in self.numbers.items()},
+            "numbers": {
+                key: plain(vars(n)) | {"missing": missing(key, n)}
+                for key, n in self.numbers.items()
+            },
             "verdicts": [v.as_dict() for v in self.verdicts],
             "models": self.models,
             "checks": self.checks,
@@ -168,6 +171,30 @@ class Judged:
             "unanswered": self.unanswered,
             "references": self.references,
         }
+
+
+def missing(key: str, number: Number) -> dict[str, str]:
+    """Why a number has no interval (``seeds``), error (``models``) or band (``tolerances``).
+
+    Examples
+    --------
+    >>> missing("standstill", Number(2.0, "%", low=1.0, high=3.0))["tolerances"]
+    'loads decide it, no tolerance does'
+    """
+    if math.isnan(number.value):
+        return {}
+    about, found = QUANTITIES[key], {}
+    if math.isnan(number.low):
+        found["seeds"] = "every load case has one seed alone, or a film is broken in some"
+    nothing = "it is 0, of which there is no share"
+    if math.isnan(number.error):
+        left = "" if number.value else nothing
+        found["models"] = about.no_error or left or "the ladder has not measured one of its models"
+    if math.isnan(number.tolerance_low):
+        whole = "it is whole" if number.value == about.top else ""
+        left = whole if number.value else nothing
+        found["tolerances"] = about.no_band or left or "none of the tolerances that count moves it"
+    return found
 
 
 def without(rooms: Sequence[str]) -> dict[str, Number]:

@@ -64,6 +64,7 @@ def wear(
     if depth == 0:
         note += "; no start, stop or fault of this run touches while it turns"
         return Number(0.0, "µm", limit=1e6 * limit, holds=True, place=place, note=note)
+    note += f"; {1e9 * depth / float(data['count'].sum()):.3g} nm each on average"
     energy = (data["contact_energy"] * data["count"]).mean("renewal")
     rubbed = np.zeros(table.sizes["case"])
     rubbed[[*map(table["case"].values.tolist().index, data["cycle"].values.tolist())]] = energy

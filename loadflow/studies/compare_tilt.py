@@ -14,7 +14,6 @@ from loadflow.cube.hdf5 import read_variables
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.shaft import bearing_loads
 from loadflow.shaft.options import Concept
-from loadflow.studies.compare_factor import SAMPLES
 from loadflow.studies.shaft_through import hollow_shaft, shaft_widths, through
 from loadflow.studies.uncarried import located
 
@@ -84,16 +83,14 @@ def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
         line, note = _beam_through(concept, {place: widths[place] for place in own})
         for path in sorted((folder / "loads").glob("*.h5")):
             series = read_variables(path, ("hub_force", "hub_moment"))
-            count = series.sizes["time"]
-            some = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
             force, moment = (
-                series[name].transpose("axis", "time").values[:, some].astype(float)
+                series[name].transpose("axis", "time").values.astype(float)
                 for name in ("hub_force", "hub_moment")
             )
             tilts = bearing_loads(line, force, moment, tilt=gravity)["tilt"]
             across = tilts.sel(axis=["y", "z"]).transpose("bearing", "axis", "time").values
             size = np.linalg.norm(across, axis=1)
-            times = series["time"].values[some[size.argmax(axis=1)]].tolist()
+            times = series["time"].values[size.argmax(axis=1)].tolist()
             seen = zip(size.max(axis=1).tolist(), times)
             largest = dict(zip(tilts["bearing"].values.tolist(), seen))
             for place in own:

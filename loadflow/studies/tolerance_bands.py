@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.rolling.friction import torques_beside
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import FurtherBearing
@@ -30,8 +31,9 @@ from loadflow.studies.band_films import (
     films_at,
     load_margins,
 )
-from loadflow.studies.compare import Finished
+from loadflow.studies.compare_friction import TORQUES
 from loadflow.studies.compare_margins import load_by_row, lubrication
+from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
@@ -237,6 +239,7 @@ def _of_rolling(
 ) -> dict[str, float]:
     """Thinnest films, smallest κ and load, and the load of the row that takes the thrust."""
     films, ratios, loads, rows = [], [], [], [0.0]
+    torques: dict[str, list[float]] = {}
     for place, stated in parts.items():
         part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
         bearing = part.geometry
@@ -246,6 +249,10 @@ def _of_rolling(
         turning = samples["weight"].values > 0
         answer = rest(part, force, moment, strict=False)
         lost = answer.friction(speed, friction_options(friction, bearing))
+        beside = torques_beside(answer, speed, friction_options(friction, bearing), part.catalogue)
+        for name, torque in {"": lost.torque, **beside}.items():
+            own = _mean(torque, samples["weight"].values * (speed != 0))
+            torques.setdefault(TORQUES[name], []).append(own)
         thin = least_film_parameter(lost.film_parameter, answer.element_forces)
         slow = turning & (np.abs(speed) <= np.quantile(np.abs(speed[turning]), _SLOW))
         films.append(float(np.median(thin[slow])))
@@ -261,6 +268,7 @@ def _of_rolling(
         "viscosity_ratio": min(ratios),
         "minimum_load": min(loads),
         "row_share": max(rows),
+        **{name: sum(own) for name, own in torques.items() if len(own) == len(parts)},
     }
 
 

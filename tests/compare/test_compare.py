@@ -8,6 +8,7 @@ import math
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -19,7 +20,9 @@ from synthetic import cube_file
 from loadflow.cli import main
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
+from loadflow.planning.accuracy import expected_errors
 from loadflow.planning.effects import EffectVerdict
+from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
 from loadflow.report.compare_page import _row, write_comparison
 from loadflow.report.sketch import sketch
@@ -38,7 +41,15 @@ from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
-from loadflow.studies.compare_result import THRUST, UNCARRIED, Comparison, Judged, Number, plain
+from loadflow.studies.compare_result import (
+    THRUST,
+    UNCARRIED,
+    Comparison,
+    Judged,
+    Number,
+    missing,
+    plain,
+)
 from loadflow.studies.compare_risks import events, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
@@ -128,6 +139,58 @@ def test_losses_of_collars_have_the_error_of_their_films():
     unknown = errors | {"thrust.film": math.nan}
     assert math.isnan(error_together({"journal.film": 3e3, "thrust.film": 1e3}, unknown))
     assert error_together({"journal.film": 3e3}, errors) == 0.02
+
+
+def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
+    for one in found.comparison.as_dict()["candidates"]:
+        for key, number in one["numbers"].items():
+            if number["value"] is None:
+                assert number["missing"] == {}, (one["name"], key)
+                continue
+            known = {
+                what
+                for what, end in (
+                    ("seeds", "low"), ("models", "error"), ("tolerances", "tolerance_low"),
+                )
+                if number[end] is not None
+            }  # fmt: skip
+            assert known | {*number["missing"]} == {"seeds", "models", "tolerances"}
+            assert known & {*number["missing"]} == set()
+            assert all(number["missing"].values())
+    spherical = by_name(found)["two-spherical"].numbers
+    for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter",
+                "minimum_load", "row_share", "row_overload", "tilt"):  # fmt: skip
+        assert 0 <= spherical[key].error < 0.5, key
+    for key in ("friction_torque", "palmgren_torque", "skf_torque"):
+        assert spherical[key].tolerance_low < spherical[key].value < spherical[key].tolerance_high
+    journal = by_name(found)["journal-cylindrical"].numbers
+    assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
+    page = found.page.read_text(encoding="utf-8")
+    assert re.search(r'<small title="[^"]+">– by (seeds|models|tolerances)</small>', page)
+    assert "by tolerances: " in page
+
+
+def test_what_no_ladder_knows_says_so_and_what_is_0_has_no_share():
+    plain_zero = Number(0.0, "h", low=0.0, high=0.0)
+    assert missing("mixed_time", plain_zero)["tolerances"].startswith("it is 0")
+    assert "time beyond a limit" in missing("mixed_time", replace(plain_zero, value=2.0))["models"]
+    whole = Number(100.0, "%", low=100.0, high=100.0, error=0.01)
+    assert missing("row_share", whole) == {"tolerances": "it is whole"}
+    assert {*missing("friction", Number(1.0))} == {"seeds", "models", "tolerances"}
+    assert missing("friction", Number(math.nan)) == {}
+
+
+def test_films_of_cones_have_the_error_of_their_grid():
+    sized = {"results": ["thrust.film"], "bearings": ["conical-pair"]}
+    pair = make_scene({"name": "cones"} | sized)
+    errors = expected_errors(pair)["thrust.film"]
+    known = ladder()["thrust"]["pair of cones, 20x10"]["errors"]
+    for name, error in errors.items():
+        assert error > known[name]["max"] > 0
+    fine = {place: one.model_copy(update={"grid": (40, 20)})
+            for place, one in pair.thrust.bearings.items()}  # fmt: skip
+    finer = pair.model_copy(update={"thrust": pair.thrust.model_copy(update={"bearings": fine})})
+    assert expected_errors(finer)["thrust.film"]["minimum film"] < errors["minimum film"]
 
 
 def test_the_margin_with_the_seeds_as_they_are_lies_in_its_interval(found):
@@ -258,6 +321,7 @@ def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_star
     found = wear(scene, {"N": bore}, table, groups)
     assert (found.value, found.limit) == (pytest.approx(20.0), pytest.approx(50.0))
     assert (found.case, found.place, found.holds) == ("a", "N", True)
+    assert "100 nm each on average" in found.note
     # a alone rubs 300 of 400 J, twice of it are 600, twice of b 200
     assert (found.low, found.high) == (pytest.approx(10.0), pytest.approx(30.0))
     untouched = wear(scene, {"N": xr.Dataset(attrs={"cycles": 0})}, table, groups)
@@ -283,6 +347,30 @@ def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
         scene = make_scene({**body, "journal": journal})
         one = candidate_scene(scene, "own", Candidate(journal=scene.journal), 24_000)
         assert ("journal.wear" in one.results) is asked
+
+
+def test_asked_starts_are_those_that_wear_follows_and_need_a_law(cube, tmp_path, monkeypatch):
+    seen = []
+
+    def stop(scene, *_):
+        seen.append(scene.wear.count("3.1"))
+        raise InputError("seen")
+
+    monkeypatch.setattr("loadflow.running.comparison.candidates_for", stop)
+    law = {"law": {"coefficient": 1e-17}, "counts": {"3.1": 7}}
+    for starts in (None, 500.0):
+        with pytest.raises(InputError, match="seen"):
+            compare(scene_of(cube, wear=law), out=tmp_path, starts=starts)
+    assert seen == [7.0, 500.0]
+    with pytest.raises(InputError, match=r"starts: without wear\.law"):
+        compare(scene_of(cube), out=tmp_path, starts=500.0)
+    with pytest.raises(InputError, match="starts: must be from 0"):
+        compare(scene_of(cube, wear=law), out=tmp_path, starts=-1.0)
+    path = tmp_path / "scene.toml"
+    path.write_text(scene_of(cube).to_toml(), encoding="utf-8")
+    with pytest.raises(SystemExit) as left:
+        main(["compare", str(path), "--starts", "500", "--out", str(tmp_path)])
+    assert left.value.code == 2
 
 
 def test_bands_by_tolerances_stand_beside_the_numbers(found):

@@ -1,0 +1,140 @@
+"""Numbers of a finished candidate with what is known of their error: by seeds, and by models."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+import xarray as xr
+
+from loadflow.scene.scene import Scene
+from loadflow.studies.compare_result import Number
+from loadflow.studies.run_lifetime import known_shares
+from loadflow.studies.seed_intervals import Groups, interval
+from loadflow.verdict import Verdict
+
+Sense = Literal["most", "least"]
+
+
+@dataclass(frozen=True)
+class Finished:
+    """A candidate that was run.
+
+    Attributes
+    ----------
+    name, title, source : str
+        Of the candidate.
+    scene : Scene
+        What was run.
+    tables : mapping
+        Its results by stage.
+    manifest : mapping
+        How its numbers came about.
+    folder : Path
+        Of its run.
+    """
+
+    name: str
+    title: str
+    source: str
+    scene: Scene
+    tables: Mapping[str, xr.Dataset]
+    manifest: Mapping[str, Any]
+    folder: Path
+
+    @property
+    def rooms(self) -> list[str]:
+        """What kinds of bearing it has results of."""
+        return [room for room in ("journal", "thrust", "rolling") if room in self.tables]
+
+
+def extreme(
+    run: Finished,
+    table: xr.Dataset,
+    groups: Groups,
+    name: str,
+    sense: Sense,
+    scale: float,
+    unit: str,
+    model: str,
+) -> Number:
+    """Extreme over cases and bearings, with case, time, interval and error."""
+    values = table[name].transpose("case", "bearing").values.astype(float)
+    pick = np.nanmax if sense == "most" else np.nanmin
+    if np.isnan(values).all():
+        return Number(math.nan, unit, note="no case has a value")
+    k, b = np.unravel_index(
+        int(np.nanargmax(values) if sense == "most" else np.nanargmin(values)), values.shape
+    )
+    low, high = interval(groups, lambda some: float(pick(values[some])))
+    times = {"bearing_design_safety": "bearing_design_time"}.get(name, f"{name}_time")
+    when = math.nan
+    if times in table:
+        when = float(table[times].transpose("case", "bearing").values[k, b])
+    result = {"thrust": "thrust.film", "rolling": "rolling.loads"}.get(
+        next(room for room, found in run.tables.items() if found is table), "journal.film"
+    )
+    return Number(
+        float(values[k, b]) * scale, unit, low * scale, high * scale, error_of(run, result, model),
+        case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),
+    )  # fmt: skip
+
+
+def seeds_of(
+    run: Finished, by_case: Mapping[str, Any], statistic: Callable[[list[Any]], float]
+) -> tuple[float, float]:
+    """Interval of a statistic of what cases have, of those that have something."""
+    table = next(
+        run.tables[room] for room in ("journal", "thrust", "rolling") if room in run.tables
+    )
+    seen = [by_case.get(str(case)) for case in table["case"].values]
+
+    def known(some: np.ndarray) -> float:
+        own = [seen[k] for k in some if seen[k] is not None]
+        return statistic(own) if own else math.nan
+
+    return interval(Groups.of(table), known)
+
+
+def lifetime_mean(
+    run: Finished,
+    values: np.ndarray,
+    share: np.ndarray,
+    groups: Groups,
+    unit: str,
+    note: str = "",
+) -> Number:
+    """Mean over the lifetime."""
+
+    def mean(some: np.ndarray) -> float:
+        return float((values[some] * share[some]).sum() / share[some].sum())
+
+    low, high = interval(groups, mean)
+    return Number(mean(np.arange(values.size)), unit, low, high, note=note)
+
+
+def against(number: Number, verdicts: Sequence[Verdict], quantity: str, scale: float) -> Number:
+    """The number with the limit of the verdict on it, of the bearing nearest to its limit."""
+    own = [v for v in verdicts if v.quantity == quantity]
+    if not own:
+        return number
+    of_place = [v for v in own if v.subject.endswith(f" {number.place}")] or own
+    limit = of_place[0].limit * scale
+    holds = all(v.holds for v in own) if math.isfinite(limit) else None
+    return replace(number, limit=limit, holds=holds)
+
+
+def error_of(run: Finished, result: str, quantity: str) -> float:
+    """Error by models that the plan expects, as a share; NaN where it was not measured."""
+    found = run.manifest.get("expected_errors", {}).get(result, {}).get(quantity)
+    return float(found) if isinstance(found, int | float) else math.nan
+
+
+def shares_of(run: Finished, table: xr.Dataset) -> np.ndarray:
+    """Share of the lifetime of each case; equal ones where the run could not tell."""
+    share = known_shares(run.tables, table)
+    return np.full(table.sizes["case"], 1 / table.sizes["case"]) if share is None else share
