@@ -30,9 +30,49 @@ def short(**sections):
 def test_friction_needs_the_series_and_no_reduction():
     plan = make_plan(short())
     assert [step.name for step in plan.steps] == ["loads", "shaft", "friction"]
-    assert plan.steps[-1].rung == "balls, every 0.1 s"
+    assert plan.steps[-1].rung.startswith("balls, every ")
     rollers = make_plan(short(rolling={"arrangement": "two-spherical"}))
-    assert rollers.steps[-1].rung == "rollers, every 0.1 s"
+    assert rollers.steps[-1].rung.startswith("rollers, every ")
+
+
+def test_the_plan_takes_friction_as_fine_as_the_accuracy_asks_for():
+    """What a scene states of it stays."""
+    spherical = {"rolling": {"arrangement": "two-spherical"}}
+
+    def chosen(**sections):
+        return make_plan(short(**spherical, **sections)).scene.friction
+
+    given, coarse = chosen(accuracy="given"), chosen(accuracy=0.2)
+    assert (given.step, given.follow_every) == (0.1, 1)
+    assert coarse.step > given.step
+    assert coarse.follow_every > 1
+    stated = chosen(accuracy=0.2, friction={"follow_every": 2})
+    assert stated.follow_every == 2
+
+
+def test_rollers_to_follow_are_told_where_there_are_none():
+    of_balls = short(friction={"follow_every": 4})
+    assert any("friction.follow_every" in text for text in unused_warnings(of_balls))
+    of_rollers = short(friction={"follow_every": 4}, rolling={"arrangement": "two-spherical"})
+    assert not any("follow_every" in text for text in unused_warnings(of_rollers))
+
+
+def test_rollers_that_stand_for_others_hardly_change_the_means():
+    scene = short(rolling={"arrangement": "two-spherical"}, shaft={"two_point": {}})
+    (case,) = list_cases(scene)
+    inputs = {"loads": hub_loads(scene, case, {})}
+    inputs["shaft"] = bearing_loads(scene, case, inputs)
+    some = scene.model_copy(
+        update={"friction": scene.friction.model_copy(update={"follow_every": 4})}
+    )
+    every, few = (
+        friction.summary({case: friction.losses(one, case, inputs)}) for one in (scene, some)
+    )
+    for name, allowed in {"mean_friction_power": 0.01, "median_film_parameter": 0.0}.items():
+        assert np.allclose(few[name], every[name], rtol=allowed, atol=0.0), name
+    # 12 s are half a turn of the cage, so that not every roller passes every place
+    assert np.allclose(few["mean_slip"], every["mean_slip"], atol=0.03)
+    assert not np.array_equal(few["mean_slip"], every["mean_slip"])
 
 
 def test_rollers_of_both_bearings_are_followed(tmp_path):

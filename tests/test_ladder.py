@@ -30,8 +30,8 @@ def plan_of(**sections):
 SCENES = [
     *({"loads": e["settings"]} for e in ladder().get("wind", {}).values() if "settings" in e),
     *(
-        {"friction": {"step": step}, "rolling": {"arrangement": arrangement}}
-        for step in (0.1, 0.4)
+        {"friction": settings, "rolling": {"arrangement": arrangement}}
+        for settings in ({"step": 0.1}, {"step": 0.4}, {"step": 0.4, "follow_every": 4})
         for arrangement in ("two-spherical", "moment")
     ),
     *({"loads": {"rung": rung}} for rung in choices(Loads, "rung")),
@@ -224,7 +224,7 @@ def test_stored_errors_of_friction_still_hold():
     parts = {"loads": hub.assign(hub_moment=hub["hub_moment"] + noise)}
     parts |= {"shaft": shaft.bearing_loads(scene, case, parts)}
     errors = Errors()
-    compare(errors, "noise", *(solve(scene, step, case, parts) for step in (0.4, 0.05)))
+    compare(errors, "noise", *(solve(scene, {"step": step}, case, parts) for step in (0.4, 0.05)))
     stored = ladder()["friction"]["balls, every 0.4 s"]["errors"]
     assert within(errors.summary()["friction power"], stored["friction power"]), errors.summary()
 

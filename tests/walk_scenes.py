@@ -516,6 +516,7 @@ OTHERS = {
     "loads.rung": ["bem", "flap"],
     "loads.wind_class": ["II"],
     "friction.step": [0.5],
+    "friction.follow_every": [4],
     "loads.winds": [["none.bts"]],
     "loads.cases": ["none.csv"],
     "loads.channels": [{"speed": ["RotSpeed"]}],

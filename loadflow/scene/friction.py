@@ -30,7 +30,8 @@ class Friction(Section, BaseModel):
 
     ``cleanliness`` is one of `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant
     and temperature it gives the modified life. Loads are taken every ``step`` (s); rollers have
-    shorter steps of their own.
+    shorter steps of their own. With ``follow_every = 4`` every fourth roller is followed, and
+    stands for its neighbours.
     """
 
     lubricant: str = "lgep-2"
@@ -49,6 +50,7 @@ class Friction(Section, BaseModel):
     churning: Churning = Churning()
     seal_torque: Annotated[float, Field(ge=0)] = 0.0
     step: Positive = 0.1
+    follow_every: Annotated[int, Field(ge=1, le=100)] = 1
     cleanliness: str = "grease, normal cleanliness"
 
     @field_validator("cleanliness")

@@ -125,6 +125,8 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "temperature", "with a conductance each bearing has that of its heat balance"
     if "rolling.friction" not in scene.results:
         return
+    if friction.follow_every > 1 and all(b.friction_model != "rollers" for b in bearings):
+        yield "follow_every", "no bearing of this scene has rollers whose motion is followed"
     rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
     ribs = ("rib_height", "rib_radius", "rib_friction")
     if not rollers:

@@ -47,10 +47,10 @@ CATALOGUES = {
 def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     """Losses, film and slip of each rolling bearing of the scene over (bearing, sample).
 
-    Every roller is followed through the whole series; balls and barrels slide where their contacts
-    are curved, balls where they spin; bearings that swing have their mean speed, or that of the
-    pitch, and their torque without load. Rings are rigid. With a conductance each bearing finds its
-    own temperature.
+    Every roller, or one in `follow_every`, is followed through the whole series; balls and barrels
+    slide where their contacts are curved, balls where they spin; bearings that swing have their
+    mean speed, or that of the pitch, and their torque without load. Rings are rigid. With a
+    conductance each bearing finds its own temperature.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     stride = max(1, round(scene.friction.step / (time[1] - time[0])))
     time = time[::stride]
     speed = inputs["loads"]["speed"].values.astype(float)[::stride]
-    found, temperatures = [], []
+    found, temperatures, every = [], [], scene.friction.follow_every
     for name, part in scene.rolling.bearings.items():
         turning = speed
         if part.oscillation is not None:
@@ -81,7 +81,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
             options = replace(options, temperature=temperature)
             follow = _FOLLOW[part.geometry.friction_model]
             turned = to_rolling(load), to_rolling(moment)[:, :2]
-            found.append(follow(warm, *turned, time, turning, options))
+            found.append(follow(warm, *turned, time, turning, options, every))
             temperatures.append(temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -124,11 +124,14 @@ def _rollers(
     time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
+    every: int,
 ) -> dict[str, Any]:
-    """What is kept of a roller bearing, its rollers followed one by one."""
+    """What is kept of a roller bearing, `every` so many of its rollers followed one by one."""
     result: Any = part.modelled.equilibrium(force, moment)
-    found = roller_slip(result, time, speed, options)
-    density = found.slip_power_density
+    rollers = result.bearing.rollers
+    every = min(every, rollers)
+    found = roller_slip(result, time, speed, options, every=every)
+    density = np.repeat(found.slip_power_density, every, axis=-1)[..., :rollers]
     if found.friction.slip_power_density is not None:  # of barrels, which slide all the time
         density = density + found.friction.slip_power_density
     curved = found.friction.losses.get("differential slip", np.zeros_like(speed))
@@ -151,6 +154,7 @@ def _balls(
     time: np.ndarray,
     speed: np.ndarray,
     options: FrictionOptions,
+    every: int,
 ) -> dict[str, Any]:
     """What is kept of a ball bearing, whose balls keep up with the cage."""
     parts = []
@@ -244,13 +248,22 @@ def _mean_beside(mean: xr.Dataset) -> dict[str, Any]:
 
 def friction_key(scene: Scene) -> str:
     """Name of the friction in the ladder: rollers are followed one by one, balls roll ideally."""
-    followed = any(b.friction_model == "rollers" for b in scene.rolling.geometries.values())
-    return f"{'rollers' if followed else 'balls'}, every {scene.friction.step:g} s"
+    if not any(b.friction_model == "rollers" for b in scene.rolling.geometries.values()):
+        return f"balls, every {scene.friction.step:g} s"
+    every = scene.friction.follow_every
+    some = f", 1 in {every} followed" if every > 1 else ""
+    return f"rollers, every {scene.friction.step:g} s{some}"
 
 
 def _links(scene: Scene) -> Links:
+    """Losses, film and slip are means over a series: a coarser wind reaches them by its mean load.
+
+    What the rotor leaves out counts by what it does to the largest one, of which more is known.
+    """
+    wind, rotor, suspension = load_links("bearing load max")
+    wind = replace(wind, quantity="bearing load mean")
     return {
-        quantity: (*load_links("bearing load max"), Link("friction", quantity))
+        quantity: (wind, rotor, suspension, Link("friction", quantity))
         for quantity in ("friction power", "film parameter", "slip")
     }
 

@@ -6,7 +6,7 @@ Rollers sit where an ideal cage carries them. Signs as in `loadflow.rolling.moti
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
@@ -160,6 +160,18 @@ class RollerHistory:
             raise InputError("time: two or more rising samples are needed")
         if (self.load < 0).any():
             raise InputError(f"load: must be ≥ 0 N, got {self.load.min():g}")
+
+    def followed(self, every: int) -> RollerHistory:
+        """Return the history of every so many of its rollers, from the first one on.
+
+        Rollers do not act on one another, so that those left move as they do among all.
+        """
+        load, outward, tangential = (
+            np.ascontiguousarray(each[:, ::every])
+            for each in (self.load, self.outward, self.tangential)
+        )
+        row = replace(self.row, rollers=load.shape[1])
+        return replace(self, row=row, load=load, outward=outward, tangential=tangential)
 
     @property
     def cage_speed(self) -> Array:

@@ -13,7 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.numerics.fields import check_one_of
+from loadflow.numerics.fields import check_one_of, require
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_drag import DragConstants
@@ -48,7 +48,7 @@ class BearingSlip:
     Attributes
     ----------
     motions : tuple of RollerMotion
-        Of each row.
+        Of each row, the rollers that were followed.
     friction : BearingFriction
         Losses in ideal rolling, and ``"slip"`` beside them.
     """
@@ -58,7 +58,7 @@ class BearingSlip:
 
     @property
     def slip(self) -> Array:
-        """Share of the ideal spin that is missing, (n, row, roller)."""
+        """Share of the ideal spin that is missing, (n, row, followed roller)."""
         return np.stack([m.slip for m in self.motions], axis=1)
 
     @property
@@ -84,6 +84,7 @@ def roller_slip(
     model: Literal["film", "coulomb"] = "film",
     sliding: float = 0.04,
     tolerance: float = 3e-4,
+    every: int = 1,
     down: float = -math.pi / 2,
     gravity: float = GRAVITY,
 ) -> BearingSlip:
@@ -107,13 +108,16 @@ def roller_slip(
         μ' of the cage's pockets.
     tolerance : float
         See `film_motion`.
+    every : int
+        1 follows every roller, 4 every fourth one, which stands for its neighbours as well: means
+        over a series hardly change, as all rollers go through the same places (docs/friction.md).
     down, gravity : float
         Direction of gravity, angle from x toward y, rad, and its size, m/s².
 
     Raises
     ------
     InputError
-        If the times do not fit or the model is unknown.
+        If the times do not fit, the model is unknown, or there are fewer than `every` rollers.
     SolverError
         If a step does not converge.
 
@@ -134,8 +138,11 @@ def roller_slip(
     ((201, 2, 48), True)
     """
     check_one_of("model", model, ("film", "coulomb"))
+    rollers = result.bearing.rollers
+    require(1 <= every <= rollers, "every", every, f"1 … {rollers}, as many as there are rollers")
     motions = []
-    for history in bearing_histories(result, time, speed, down=down, gravity=gravity):
+    for whole in bearing_histories(result, time, speed, down=down, gravity=gravity):
+        history = whole.followed(every)
         if model == "film":
             motion = film_motion(history, options, sliding=sliding, tolerance=tolerance)
         else:
@@ -149,7 +156,7 @@ def roller_slip(
         motions.append(motion)
     ideal = roller_friction(result, speed, options)
     steps = np.diff(np.asarray(time, float))
-    lost = sum(m.slip_energy.sum(axis=1) for m in motions)
+    lost = rollers * sum(m.slip_energy.mean(axis=1) for m in motions)
     power = np.concatenate([[0.0], np.asarray(lost)[1:] / steps])
     friction = BearingFriction(**{**vars(ideal), "losses": {**ideal.losses, "slip": power}})
     return BearingSlip(tuple(motions), friction)
