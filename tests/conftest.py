@@ -2,9 +2,11 @@
 
 import gc
 import os
+from functools import cache
 from pathlib import Path
 
 import pytest
+import typer.main
 from hypothesis import settings
 
 # the processes of the tests share the cores: threads of linear algebra would wait for one another
@@ -19,6 +21,9 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "loadflow"))
 # numba, pydantic and xarray make millions of small objects that stay: they are looked through less
 # often than Python does by default
 gc.set_threshold(50_000, 20, 20)
+
+# all commands are made anew for each call of the command line: half of the time of a small one
+typer.main.get_command = cache(typer.main.get_command)
 
 ROOMS = ("journal", "hard", "compare", "", "running", "wind", "shaft", "rolling", "rotor")
 """Folders of tests in the order in which they are taken; the others stand in the middle."""

@@ -15,7 +15,7 @@ TAPERED = {"kind": "roller", "rollers": 20, "slices": 6, "roller_diameter": 0.07
            "contact_angle": 0.35, "clearance": -5e-5}  # fmt: skip
 BARRELS = {"kind": "spherical", "rollers": 20, "slices": 6, "roller_diameter": 0.07,
            "roller_length": 0.12, "pitch_diameter": 1.2, "contact_angle": 0.2}  # fmt: skip
-FILM = {"grid": [24, 8], "bearings": ["N"]}
+FILM = {"grid": [16, 6], "bearings": ["N"]}
 FEW = {"size": 0.03, "classes": 2}  # samples; some touch, some have a film
 
 BASES = {
@@ -60,7 +60,7 @@ BASES = {
         "journal": FILM, "reduction": {"method": "periodic", "bounds": [0.05, 0.3]},
     },
     "periodic loads, tilted": {
-        "journal": FILM | {"tilt": True}, "shaft": {"two_point": {"beam": {}}},
+        "journal": FILM | {"tilt": True, "rung": "reduced"}, "shaft": {"two_point": {"beam": {}}},
         "reduction": {"method": "periodic", "bounds": [0.05, 0.3]}, "results": ["journal.film"],
     },
     "stationary loads": {"journal": FILM, "reduction": {"method": "stationary"}},
