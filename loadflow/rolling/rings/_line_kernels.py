@@ -13,7 +13,7 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling._line_law import ninth_root
 
 ARM, GAP, STIFFNESS = range(3)
@@ -22,7 +22,7 @@ ARM, GAP, STIFFNESS = range(3)
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def line_contacts(shift, table, push, slope, across, slant):
     """Fill push (2 row, roller), slope, across and slant (row, roller) of rollers by their shift.
 

@@ -16,16 +16,17 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
 from loadflow.rolling.rings._line_kernels import line_contacts
+from loadflow.rolling.rings._ring_rooms import wave_room
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(nogil=True, error_model="numpy", cache=True)
+@bare(**LINKED)
 def _root(stretch, cubic):
     """Root y of y² (1 + cubic y) = stretch > 0, of a contact δ = y² with a spring behind it."""
     root = min(math.sqrt(stretch), (stretch / cubic) ** (1.0 / 3.0))
@@ -37,7 +38,7 @@ def _root(stretch, cubic):
     return root
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def dot(a, b):
     """Sum of products; loops rather than array expressions, which take seconds to compile."""
     total = 0.0
@@ -55,15 +56,14 @@ def largest_product(a, b):
     return most
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _spread(amount, trig, cosines, shift):
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def _spread(amount, trig, cosines, odd, shift):
     """Fill the `shift` (track, ball) by the `amount` (track, wave) of each wave.
 
     Four waves at a time: cosines and sines over half of the ring, whose sum and difference are
-    both halves.
+    both halves. `odd` is room for one of them.
     """
     half, balls = trig.shape[1], shift.shape[1]
-    odd = np.empty(half)
     for s in range(shift.shape[0]):
         line, size = shift[s], amount[s]
         line[:half] = 0.0
@@ -83,11 +83,13 @@ def _spread(amount, trig, cosines, shift):
             line[j] += odd[j]
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def gather(values, trig, cosines, amount):
-    """Fill the `amount` (line, wave) with sums of `values` (line, ball) times each wave."""
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def gather(values, trig, cosines, even, odd, amount):
+    """Fill the `amount` (line, wave) with sums of `values` (line, ball) times each wave.
+
+    `even` and `odd` are room for half a ring each.
+    """
     half, balls = trig.shape[1], values.shape[1]
-    even, odd = np.empty(half), np.empty(half)
     for s in range(values.shape[0]):
         line, size = values[s], amount[s]
         for j in range(half):
@@ -107,14 +109,14 @@ def gather(values, trig, cosines, amount):
             size[t], size[t + 1], size[t + 2], size[t + 3] = a, b, c, d
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def add_multiple(factor, source, target):
     """Add `factor` times a line to another."""
     for j in range(target.shape[0]):
         target[j] += factor * source[j]
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
+@bare(**LINKED)
 def mix(mixing, shift, full):
     """Fill the `full` shift of all fields by that of the tracks."""
     full[:, :] = 0.0
@@ -124,18 +126,18 @@ def mix(mixing, shift, full):
                 add_multiple(mixing[s, f], shift[f], full[s])
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _gather_push(push, waves, pull):
+@bare(**LINKED)
+def _gather_push(push, waves, room, pull):
     """Add the forces `push` (field · kind, ball) of all contacts to those on the unknowns."""
     mixing, first, value = waves.mixing, waves.first, waves.value
-    lumped = np.zeros((mixing.shape[1], push.shape[1]))
+    lumped, amount = room.lumped, room.amount
+    lumped[:, :] = 0.0
     for s in range(push.shape[0]):
         for f in range(lumped.shape[0]):
             if mixing[s, f] != 0.0:
                 add_multiple(mixing[s, f], push[s], lumped[f])
-    amount = np.empty((lumped.shape[0], waves.trig.shape[0]))
-    gather(lumped, waves.trig, waves.cosines, amount)
-    line, place = amount.reshape(amount.size), waves.place
+    gather(lumped, waves.trig, waves.cosines, room.even, room.odd, amount)
+    line, place = room.line, waves.place
     for a in range(pull.shape[0]):
         total = 0.0
         for e in range(first[a], first[a + 1]):
@@ -143,7 +145,7 @@ def _gather_push(push, waves, pull):
         pull[a] += total
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def _contacts(shift, table, local, push, slope, across):
     """Fill push (3 kind, ball), slope along and across (kind, ball) of contacts by their shift.
 
@@ -185,19 +187,20 @@ def _contacts(shift, table, local, push, slope, across):
     return energy, total, upright < 0.0
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def shift_of(x, waves, shift):
+@bare(**LINKED)
+def shift_of(x, waves, room, shift):
     """Fill the `shift` (track, ball) by the unknowns."""
-    amount = np.zeros((shift.shape[0], waves.trig.shape[0]))
-    first, place, value, line = waves.first, waves.place, waves.value, amount.reshape(amount.size)
+    amount, line = room.amount, room.line
+    first, place, value = waves.first, waves.place, waves.value
+    line[:] = 0.0
     for a in range(x.shape[0]):
         for e in range(first[a], first[a + 1]):
             line[place[e]] += x[a] * value[e]
-    _spread(amount, waves.trig, waves.cosines, shift)
+    _spread(amount, waves.trig, waves.cosines, room.odd, shift)
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def forces(x, shift, waves, law, full, push, slope, across, slant, pull):
+@bare(**LINKED)
+def forces(x, shift, waves, law, room, full, push, slope, across, slant, pull):
     """Energy, sum of forces, and whether a loaded contact lies beyond 90°, at known shifts.
 
     Fills the `full` shift, what `_contacts` or `line_contacts` fills, and the force `pull` on all
@@ -212,7 +215,7 @@ def forces(x, shift, waves, law, full, push, slope, across, slant, pull):
     for a in range(x.shape[0]):
         pull[a] = x[a] if a >= 5 else 0.0
         energy += 0.5 * pull[a] * pull[a]
-    _gather_push(push, waves, pull)
+    _gather_push(push, waves, room, pull)
     return energy, total, beyond
 
 
@@ -230,8 +233,9 @@ def evaluate(x, waves, law):
     )  # fmt: skip
     slope, across = np.zeros((kinds, balls)), np.zeros((kinds, balls))
     slant, pull = np.zeros((kinds, balls)), np.zeros(x.shape[0])
-    shift_of(x, waves, shift)
-    forces(x, shift, waves, law, full, push, slope, across, slant, pull)
+    room = wave_room(waves)
+    shift_of(x, waves, room, shift)
+    forces(x, shift, waves, law, room, full, push, slope, across, slant, pull)
     return full, push, slope, across, slant, pull
 
 
@@ -240,8 +244,9 @@ def fields_of(states, waves):
     """What all contacts feel in each state, (n, field · kind, ball)."""
     found = np.zeros((states.shape[0], waves.mixing.shape[0], waves.balls))
     shift = np.zeros((waves.mixing.shape[1], waves.balls))
+    room = wave_room(waves)
     for i in range(states.shape[0]):
-        shift_of(states[i], waves, shift)
+        shift_of(states[i], waves, room, shift)
         mix(waves.mixing, shift, found[i])
     return found
 

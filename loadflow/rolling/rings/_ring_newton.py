@@ -10,7 +10,7 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
 from loadflow.rolling.contacts import POINT
@@ -22,10 +22,11 @@ from loadflow.rolling.rings._ring_kernels import (
     mix,
     shift_of,
 )
+from loadflow.rolling.rings._ring_rooms import newton_room, tangent_room, wave_room
 from loadflow.rolling.rings._ring_tangent import backward, condense, forward
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
-_PATIENCE_POINTS, _PATIENCE_LINES = 9.0, 4.0
+_PATIENCE_POINTS, _PATIENCE_LINES = 8.0, 4.0
 _PAIRS = 8  # steps remembered
 
 
@@ -78,13 +79,13 @@ def _free_lines(basis, slope, across, slant):
     return cholesky_solve(rigid, 0.0, rest, small, step) <= 1e-12
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _direction(rest, factor, condensed, cap, small, step):
+@bare(**LINKED)
+def _direction(rest, factor, condensed, cap, small, rhs, step):
     """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
 
     Returns the largest diagonal term and the smallest pivot of the rigid part.
     """
-    rhs, modes = np.empty(5), step[5:]
+    modes = step[5:]
     largest = norm = 0.0
     count = modes.shape[0]
     for b in range(count):
@@ -110,25 +111,27 @@ def _direction(rest, factor, condensed, cap, small, step):
     return largest, pivot
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _secant(rest, factor, condensed, cap, small, moves, changes, held, step):
+@bare(**LINKED)
+def _secant(rest, factor, condensed, cap, small, moves, changes, held, rhs, part, right, step):
     """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
 
-    `moves` and the `changes` of force along them (pair, unknown), the oldest first.
+    `moves` and the `changes` of force along them (pair, unknown), the oldest first; `rhs`, `part`
+    and `right` are room.
     """
-    part, right = np.zeros(held), rest.copy()
+    for a in range(rest.shape[0]):
+        right[a] = rest[a]
     for p in range(held - 1, -1, -1):
         part[p] = dot(moves[p], right) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
             right[a] -= part[p] * changes[p, a]
-    _direction(right, factor, condensed, cap, small, step)
+    _direction(right, factor, condensed, cap, small, rhs, step)
     for p in range(held):
         more = part[p] - dot(changes[p], step) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
             step[a] += more * moves[p, a]
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
+@bare(**LINKED)
 def _remember(moves, changes, held):
     """Drop the oldest pair if there is no room; returns the place of the next one."""
     if held < moves.shape[0]:
@@ -142,7 +145,7 @@ def _remember(moves, changes, held):
 @njit(nogil=True, error_model="numpy", **LINKED)
 def _newton(
     x, load, waves, basis, law, reach, cap, tolerance, limit, factor, condensed,
-    moves, changes, held, known,
+    moves, changes, held, known, rooms,
 ):  # fmt: skip
     """Minimise energy - load·x from `x`.
 
@@ -153,20 +156,13 @@ def _newton(
     steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
     of the contacts, and halving until energy or residual falls.
     """
-    fields, tracks, balls, size = basis.shape[0], waves.mixing.shape[1], waves.balls, x.shape[0]
-    kinds = waves.mixing.shape[0] // fields
-    small, one = np.zeros((5, 5)), np.ones(size)
-    # one by one: arrays unpacked from a larger one count as strided, and their loops stay scalar
-    shift, far = np.zeros((tracks, balls)), np.zeros((tracks, balls))
-    between, push = np.zeros((tracks, balls)), np.zeros((fields * kinds, balls))
-    full = np.zeros((fields * kinds, balls))
-    slope, across, slant = (
-        np.zeros((kinds, balls)), np.zeros((kinds, balls)), np.zeros((kinds, balls)),
-    )  # fmt: skip
-    pull, rest, step, trial = np.zeros(size), np.zeros(size), np.zeros(size), np.zeros(size)
+    size = x.shape[0]
+    room, space = rooms[0], rooms[1]
+    small, rhs, one, pull, rest, right, step, trial, part = rooms[2][:9]
+    shift, far, between, push, full, slope, across, slant = rooms[2][9:]
     for a in range(size):
         trial[a] = x[a]
-    shift_of(x, waves, between)
+    shift_of(x, waves, room, between)
     external = largest_product(load, one)
     iterations, residual, moved, norm, energy = 0, 0.0, 0.0, 0.0, 0.0
     damping, exact, fresh, beyond = 1.0, False, True, False
@@ -174,7 +170,7 @@ def _newton(
     potential, descent, halvings = 0.0, 0.0, 0
     while True:
         energy, total, beyond = forces(
-            trial, between, waves, law, full, push, slope, across, slant, pull
+            trial, between, waves, law, room, full, push, slope, across, slant, pull
         )
         new_norm = 0.0
         for a in range(size):
@@ -216,12 +212,12 @@ def _newton(
             known, fresh, halvings = False, True, 0
             continue
         if exact:
-            condense(waves, law.power, push, slope, across, slant, factor, condensed)
+            condense(waves, law.power, push, slope, across, slant, space, factor, condensed)
             known, held = True, 0
-        _secant(rest, factor, condensed, cap, small, moves, changes, held, step)
+        _secant(rest, factor, condensed, cap, small, moves, changes, held, rhs, part, right, step)
         iterations += 1
-        shift_of(step, waves, far)
-        longest = _longest(far, waves.mixing, 0.0 if exact else cap, full)
+        shift_of(step, waves, room, far)
+        longest = _longest(far, waves.mixing, 0.0 if exact else cap, room.line, full)
         if exact and stalled(max(longest, largest_product(step[:5], one)), rounding_level(moved)):
             break
         damping = min(1.0, cap / longest) if longest > 0.0 else 1.0
@@ -229,9 +225,9 @@ def _newton(
         _between(x, step, shift, far, damping, trial, between)
     rounding = 0.0
     if residual > tolerance:
-        forces(x, shift, waves, law, full, push, slope, across, slant, pull)
-        condense(waves, law.power, push, slope, across, slant, factor, condensed)
-        stiffest, _ = _direction(rest, factor, condensed, cap, small, step)
+        forces(x, shift, waves, law, room, full, push, slope, across, slant, pull)
+        condense(waves, law.power, push, slope, across, slant, space, factor, condensed)
+        stiffest, _ = _direction(rest, factor, condensed, cap, small, rhs, step)
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
     if basis.shape[0] == 3:
@@ -241,7 +237,7 @@ def _newton(
     return answered, residual, iterations, singular, rounding, held
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath={"reassoc", "nsz", "nnan"})
+@bare(forceinline=True, fastmath={"reassoc", "nsz", "nnan"})
 def _largest(line):
     most = 0.0
     for j in range(line.shape[0]):
@@ -249,10 +245,10 @@ def _largest(line):
     return most
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _longest(far, mixing, cap, full):
+@bare(**LINKED)
+def _longest(far, mixing, cap, most, full):
     """Largest shift of a contact; a bound on it where that is within `cap` and says enough."""
-    most, bound = np.zeros(far.shape[0]), 0.0
+    bound = 0.0
     for f in range(far.shape[0]):
         most[f] = _largest(far[f])
     for s in range(mixing.shape[0]):
@@ -269,7 +265,7 @@ def _longest(far, mixing, cap, full):
     return bound
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
+@bare(**LINKED)
 def _between(x, step, shift, far, damping, trial, between):
     """Fill the state and the shift of the contacts part of a step away."""
     for a in range(x.shape[0]):
@@ -279,7 +275,7 @@ def _between(x, step, shift, far, damping, trial, between):
             between[s, j] = shift[s, j] + damping * far[s, j]
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
+@bare(**LINKED)
 def _predict(loads, states, i, past, x):
     """Fill `x` with where case `i` may lie: as the case before, or in line with `past` ones.
 
@@ -325,6 +321,8 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
     whole, lying = np.zeros(size), np.zeros(5)
     factor = np.zeros((size, size - 5))
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
+    kinds = waves.mixing.shape[0] // basis.shape[0]
+    rooms = wave_room(waves), tangent_room(waves), newton_room(waves, kinds, size, _PAIRS)
     held = np.int64(0)  # a literal 0 would have the whole iteration compiled a second time
     past = 0  # cases before this one, one after the other, that are solved
     for i in range(n):
@@ -349,7 +347,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
                     x[a] = lying[a] / scale[a] if a < 5 else 0.0
             ok, res, more, free, rounding[i], held = _newton(
                 x, whole, waves, basis, law, reach, cap, tolerance, limit, factor,
-                condensed, moves, changes, held, attempt == 0,
+                condensed, moves, changes, held, attempt == 0, rooms,
             )  # fmt: skip
             count += more
             if ok and (attempt == 1 or (attempt == 0 and not free)):
@@ -363,9 +361,9 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
 @njit(cache=True, nogil=True, error_model="numpy")
 def stiffness_series(states, waves, law):
     """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
-    n, modes = states.shape[0], states.shape[1] - 5
+    n, modes, space = states.shape[0], states.shape[1] - 5, tangent_room(waves)
     stiffness, factor = np.zeros((n, 5, 5)), np.zeros((modes + 5, modes))
     for i in range(n):
         _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
-        condense(waves, law.power, push, slope, across, slant, factor, stiffness[i])
+        condense(waves, law.power, push, slope, across, slant, space, factor, stiffness[i])
     return stiffness

@@ -13,15 +13,16 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling.contacts import POINT
 from loadflow.rolling.rings._ring_kernels import add_multiple, dot, gather
+from loadflow.rolling.rings._ring_rooms import tangent_room
 
 # Sums may be reordered (so that they use vector units); nothing else of fast mathematics.
 _REORDER = {"reassoc", "contract", "nsz"}
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def _add_squares(along, weight, resistance):
     """Add weight · along alongᵀ of each ball, `along` (track, ball), to its lower half."""
     c = 0
@@ -33,13 +34,13 @@ def _add_squares(along, weight, resistance):
             c += 1
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _resistances(waves, power, push, slope, across, slant):
-    """What the contacts of each ball resist, lower half of (track, track), (half, ball)."""
+@bare(**LINKED)
+def _resistances(waves, power, push, slope, across, slant, room):
+    """Fill what the contacts of each ball resist, lower half of (track, track), (half, ball)."""
     mixing, balls = waves.mixing, push.shape[1]
     tracks = mixing.shape[1]
-    found = np.zeros((tracks * (tracks + 1) // 2, balls))
-    along, weight = np.zeros((tracks, balls)), np.zeros(balls)
+    found, along, weight = room.resistance, room.along, room.weight
+    found[:, :] = 0.0
     fields = mixing.shape[0] // slope.shape[0]
     for k in range(slope.shape[0]):
         along[:, :] = 0.0
@@ -69,65 +70,110 @@ def _resistances(waves, power, push, slope, across, slant):
                 if alike != 0.0:
                     add_multiple(alike, across[k], found[c])
                 c += 1
-    return found
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
-def _products(resistance, waves):
-    """Sums over all balls of what they resist times two waves, (half, wave, wave)."""
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def _combine(first, at, second, by, sign, target, to, count):
+    """Fill a part of the line `target` with one of `first` and `sign` times one of `second`.
+
+    Places are unsigned: kernels look twice at an index that may be negative.
+    """
+    for n in range(count):
+        target[to + n] = first[at + n] + sign * second[by + n]
+
+
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def _copy(line, at, to, count):
+    """Copy a part of a line to another place."""
+    for n in range(count):
+        line[to + n] = line[at + n]
+
+
+@bare(**LINKED)
+def _products(resistance, waves, room):
+    """Fill the sums over all balls of what they resist times two waves, (track · wave) twice."""
     top, cosines, balls = waves.top, waves.cosines, waves.balls
-    moments = np.zeros((resistance.shape[0], waves.products.shape[0]))
-    gather(resistance, waves.products, waves.product_cosines, moments)
-    even, odd = np.zeros(3 * top + 1), np.zeros(3 * top + 1)  # of harmonics -top … 2 top
-    found = np.zeros((resistance.shape[0], waves.trig.shape[0], waves.trig.shape[0]))
-    for c in range(resistance.shape[0]):
-        for n in range(-top, 2 * top + 1):
-            fold, sign = abs(n), 1.0 if n > 0 else -1.0
-            if fold > balls - fold:  # a harmonic is seen at the balls as its mirror
-                fold, sign = balls - fold, -sign
-            even[top + n] = 0.5 * moments[c, fold]
-            odd[top + n] = 0.0
-            if fold > 0:
-                odd[top + n] = 0.5 * sign * moments[c, waves.product_cosines + fold - 1]
-        for m in range(top + 1):
-            less, more = even[top - m : 2 * top - m + 1], even[top + m : 2 * top + m + 1]
-            left, right = odd[top - m : 2 * top - m + 1], odd[top + m : 2 * top + m + 1]
-            cosine, beside = found[c, m, : top + 1], found[c, m, cosines - 1 : cosines + top]
-            for n in range(1, top + 1):
-                beside[n] = right[n] + left[n]
-            for n in range(top + 1):
-                cosine[n] = less[n] + more[n]
-            if m > 0:
-                row = found[c, cosines + m - 1]
-                sine, beside = row[: top + 1], row[cosines - 1 : cosines + top]
-                for n in range(1, top + 1):
-                    beside[n] = less[n] - more[n]
-                for n in range(top + 1):
-                    sine[n] = right[n] - left[n]
-    return found
+    count, tracks = waves.trig.shape[0], waves.mixing.shape[1]
+    moments, even, odd = room.moments, room.even, room.odd
+    gather(
+        resistance, waves.products, waves.product_cosines, room.folded[0], room.folded[1], moments
+    )
+    flat, wide = room.products.reshape(room.products.size), room.products.shape[1]
+    some, more = np.uint64(top + 1), np.uint64(top)
+    c = 0
+    for f in range(tracks):
+        for g in range(f + 1):
+            for n in range(-top, 2 * top + 1):
+                fold, sign = abs(n), 1.0 if n > 0 else -1.0
+                if fold > balls - fold:  # a harmonic is seen at the balls as its mirror
+                    fold, sign = balls - fold, -sign
+                even[top + n] = 0.5 * moments[c, fold]
+                odd[top + n] = 0.0
+                if fold > 0:
+                    odd[top + n] = 0.5 * sign * moments[c, waves.product_cosines + fold - 1]
+            c += 1
+            for m in range(top + 1):
+                less, beyond = np.uint64(top - m), np.uint64(top + m)
+                one = np.uint64(1)
+                place = np.uint64((f * count + m) * wide + g * count)
+                other = np.uint64((g * count + m) * wide + f * count)
+                sines = np.uint64(cosines)
+                _combine(even, less, even, beyond, 1.0, flat, place, some)
+                _combine(odd, beyond + one, odd, less + one, 1.0, flat, place + sines, more)
+                if f != g:
+                    _copy(flat, place, other, some)
+                    _copy(flat, place + sines, other + sines, more)
+                if m > 0:
+                    place = np.uint64((f * count + cosines + m - 1) * wide + g * count)
+                    other = np.uint64((g * count + cosines + m - 1) * wide + f * count)
+                    _combine(odd, beyond, odd, less, -1.0, flat, place, some)
+                    _combine(even, less + one, even, beyond + one, -1.0, flat, place + sines, more)
+                    if f != g:
+                        _copy(flat, place, other, some)
+                        _copy(flat, place + sines, other + sines, more)
 
 
-@njit(nogil=True, error_model="numpy", **LINKED)
-def _by_waves(resistance, waves, hessian):
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def _add_four(a, first, b, second, c, third, d, fourth, target):
+    """Add multiples of four lines to another."""
+    for p in range(target.shape[0]):
+        target[p] += a * first[p] + b * second[p] + c * third[p] + d * fourth[p]
+
+
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
+def _interleave(rows, felt):
+    """Fill `felt` (place, 4) by four rows."""
+    one, two, three, four = rows[0], rows[1], rows[2], rows[3]
+    for p in range(felt.shape[0]):
+        felt[p, 0], felt[p, 1], felt[p, 2], felt[p, 3] = one[p], two[p], three[p], four[p]
+
+
+@bare(**LINKED)
+def _by_waves(waves, room, hessian):
     """Fill the lower half of the tangent of the contacts from products of waves, four rows at once.
 
     What the waves of all tracks feel of the four unknowns lies side by side, so that one look at
     a wave serves all of them.
     """
-    first, wave, track, value = waves.first, waves.wave, waves.track, waves.value
-    products, tracks = _products(resistance, waves), waves.mixing.shape[1]
-    size, count = hessian.shape[0], products.shape[1]
-    felt, one = np.zeros((tracks * count, 4)), np.zeros((tracks, count))
-    line, place = one.reshape(one.size), waves.place
+    first, value, place = waves.first, waves.value, waves.place
+    products, rows, felt = room.products, room.rows, room.felt
+    size = hessian.shape[0]
     for a in range(0, size, 4):
         for row in range(4):
-            one[:, :] = 0.0
-            for e in range(first[min(a + row, size)], first[min(a + row + 1, size)]):
-                for f in range(tracks):
-                    high, low = max(f, track[e]), min(f, track[e])
-                    add_multiple(value[e], products[high * (high + 1) // 2 + low, wave[e]], one[f])
-            for p in range(line.shape[0]):
-                felt[p, row] = line[p]
+            line = rows[row]
+            line[:] = 0.0
+            e, last = first[min(a + row, size)], first[min(a + row + 1, size)]
+            while e + 4 <= last:
+                _add_four(
+                    value[e], products[place[e]], value[e + 1], products[place[e + 1]],
+                    value[e + 2], products[place[e + 2]], value[e + 3], products[place[e + 3]],
+                    line,
+                )  # fmt: skip
+                e += 4
+            while e < last:
+                add_multiple(value[e], products[place[e]], line)
+                e += 1
+        _interleave(rows, felt)
         for b in range(min(a + 4, size)):
             t = u = v = w = 0.0
             for e in range(first[b], first[b + 1]):
@@ -176,24 +222,33 @@ def _by_balls(resistance, waves, hessian):
                 )  # fmt: skip
 
 
+@njit(nogil=True, error_model="numpy", **LINKED)
+def _lower(waves, power, push, slope, across, slant, room):
+    """Fill the lower half of the Hessian of the potential."""
+    hessian = room.hessian
+    _resistances(waves, power, push, slope, across, slant, room)
+    if waves.shapes.shape[0] == 0:
+        _products(room.resistance, waves, room)
+        _by_waves(waves, room, hessian)
+    else:
+        _by_balls(room.resistance, waves, hessian)
+    for a in range(5, hessian.shape[0]):
+        hessian[a, a] += 1.0
+
+
 @njit(cache=True, nogil=True, error_model="numpy")
 def tangent(waves, power, push, slope, across, slant):
     """Exact Hessian of the potential."""
-    size = waves.first.shape[0] - 1
-    hessian = np.zeros((size, size))
-    resistance = _resistances(waves, power, push, slope, across, slant)
-    if waves.shapes.shape[0] == 0:
-        _by_waves(resistance, waves, hessian)
-    else:
-        _by_balls(resistance, waves, hessian)
-    for a in range(size):
-        hessian[a, a] += 1.0 if a >= 5 else 0.0
+    room = tangent_room(waves)
+    hessian = room.hessian
+    _lower(waves, power, push, slope, across, slant, room)
+    for a in range(hessian.shape[0]):
         for b in range(a):
             hessian[b, a] = hessian[a, b]
     return hessian
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def factorise(matrix, columns):
     """Replace the first `columns` of the lower half of a matrix by those of its Cholesky factor.
 
@@ -233,7 +288,7 @@ def factorise(matrix, columns):
                     matrix[a, d] -= matrix[a, c] * matrix[d, c]
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def forward(factor, rhs):
     """Replace `rhs` by the solution with a Cholesky factor, whose columns may have more rows.
 
@@ -262,7 +317,7 @@ def forward(factor, rhs):
         rhs[a] = value / factor[a, a]
 
 
-@njit(forceinline=True, nogil=True, error_model="numpy", fastmath=_REORDER, **LINKED)
+@bare(forceinline=True, fastmath=_REORDER, **LINKED)
 def backward(factor, rhs):
     """Replace `rhs` by the solution with a Cholesky factor transposed, four rows at a time."""
     size = rhs.shape[0]
@@ -283,19 +338,22 @@ def backward(factor, rhs):
 
 
 @njit(nogil=True, error_model="numpy", **LINKED)
-def condense(waves, power, push, slope, across, slant, factor, condensed):
+def condense(waves, power, push, slope, across, slant, room, factor, condensed):
     """Tangent with the modes eliminated.
 
     Fills the Cholesky `factor` (mode + 5, mode) of the modes, below it the rows of the rigid
     unknowns, and the 5 × 5 tangent that is left.
     """
-    hessian = tangent(waves, power, push, slope, across, slant)
-    modes = factor.shape[1]
-    for a in range(modes + 5):
-        source = hessian[a + 5 if a < modes else a - modes]
-        for b in range(modes):
-            factor[a, b] = source[5 + b]
+    hessian, modes = room.hessian, factor.shape[1]
+    _lower(waves, power, push, slope, across, slant, room)
+    for a in range(modes):
+        source, line = hessian[a + 5], factor[a]
+        for b in range(a + 1):
+            line[b] = source[5 + b]
+        for b in range(5):
+            factor[modes + b, a] = source[b]
     factorise(factor, modes)
     for a in range(5):
         for b in range(5):
-            condensed[a, b] = hessian[a, b] - dot(factor[modes + a], factor[modes + b])
+            held = hessian[max(a, b), min(a, b)]
+            condensed[a, b] = held - dot(factor[modes + a], factor[modes + b])
