@@ -163,7 +163,7 @@ VALUES = {
     },
     "plan": {name: RUNS[name] for name in RUNS if name not in ("name", "workers", "scheduler")},
     "run": RUNS,
-    "compare": RUNS | {"candidate": ["own-journal"]},
+    "compare": RUNS | {"candidate": ["own-journal"], "starts": ["500"]},
     "design": RUNS | {
         "candidate": ["own-rolling"], "key": ["geometry.diameter=2:3"], "margin": ["1.2"],
     },

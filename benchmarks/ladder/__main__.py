@@ -55,8 +55,11 @@ STAGES: dict[str, Callable[[Bench], Rungs]] = {
 KINDS = {"comparison"}
 """Tables whose rows are kinds of bearing, no alternatives: they have no picture."""
 
-GAINING = {"journal": "journal", "thrust": "thrust", "rolling": "rolling", "friction": "rolling"}
-"""Stages whose answers have gains, and the bearing whose gains are measured with them."""
+GAINING = {
+    "journal": {"journal"}, "thrust": {"thrust", "cones"}, "rolling": {"rolling"},
+    "friction": {"rolling"},
+}  # fmt: skip
+"""Stages whose answers have gains, and the bearings whose gains are measured with them."""
 
 HEAD = """# Speed against error
 
@@ -172,7 +175,7 @@ def main() -> None:
         print(f"{name}: {time.perf_counter() - start:.0f} s")
         for rung, entry in measured[name].items():
             print(f"  {rung}: {entry['relative_time']:.3g} × top, {entry['error']}")
-    rooms = {GAINING[name] for name in chosen.only if name in GAINING}
+    rooms = set[str]().union(*(GAINING[name] for name in chosen.only if name in GAINING))
     gains = _read(GAINS) | measure_gains(bench, rooms)
     if chosen.quick:
         return

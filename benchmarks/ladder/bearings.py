@@ -27,7 +27,7 @@ from benchmarks.ladder.measuring import (
     with_dominated,
     with_ratios,
 )
-from benchmarks.ladder.thrust import thrust_gains
+from benchmarks.ladder.thrust import cone_gains, thrust_gains
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Rolling, Scene
@@ -353,6 +353,7 @@ def measure_gains(bench: Bench, rooms: set[str]) -> dict[str, dict[str, float]]:
     of = {
         "journal": lambda: _film_gains(bench),
         "thrust": lambda: thrust_gains(bench, STEP),
+        "cones": lambda: cone_gains(bench, STEP),
         "rolling": lambda: _contact_gains(bench) | friction_gains(bench, STEP),
     }
     return {room: gains() for room, gains in of.items() if room in rooms}

@@ -181,17 +181,23 @@ def _seconds(scene: Scene, rung: str, repeat: int) -> float:
 
 
 def thrust_gains(bench: Bench, step: float) -> dict[str, float]:
-    """Largest |d ln(answer)/d ln(load)| of the collar over the points, and of the pair of cones."""
+    """Largest |d ln(answer)/d ln(load)| of the collar over the points."""
     speeds, grid = bench.setting.speeds, thrust.GRIDS[1]
     more, less = (films(bench.scene, "grid", grid, speeds, r) for r in (step**0.5, step**-0.5))
-    found = {name: float(np.max(np.abs(np.log(more[name] / less[name])))) for name in FILM}
-    one = _cone(_of_cones(bench.scene), CONES[0])
+    return {
+        name.replace("_", " "): rounded(
+            float(np.max(np.abs(np.log(more[name] / less[name]))) / np.log(step))
+        )
+        for name in FILM
+    }
+
+
+def cone_gains(bench: Bench, step: float) -> dict[str, float]:
+    """The same of the pair of cones, under the loads of its rungs."""
+    one, found = _cone(_of_cones(bench.scene), CONES[0]), dict.fromkeys(FILM, 0.0)
     for _, force, moment, speed in cone_loads(bench):
         heavy, light = (one.solve(force * r, moment * r, speed) for r in (step**0.5, step**-0.5))
         for name in FILM:
-            change = abs(np.log(getattr(heavy, name) / getattr(light, name)))
-            found[name] = max(found[name], float(change))
-    return {
-        name.replace("_", " "): rounded(change / float(np.log(step)))
-        for name, change in found.items()
-    }
+            change = float(abs(np.log(getattr(heavy, name) / getattr(light, name))))
+            found[name] = max(found[name], change / float(np.log(step)))
+    return {name.replace("_", " "): rounded(gain) for name, gain in found.items()}

@@ -85,14 +85,16 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
     if scene.wants("journal") and scene.journal.in_motion:
         links = *load_links("radial force max"), Link("journal", "side flow")
         found["journal.film"] = {"side flow": of("journal.film", "side flow", *links)}
-    if scene.wants("thrust"):
-        few = _few_samples("cones" if _has_cones(scene) else "collar")
+    pads = scene.thrust
+    if scene.wants("thrust"):  # its few samples in place of the reduction
+        few = _few_samples("cones" if len(pads.collars) < len(pads.bearings) else "collar")
+        films = {
+            name: [link for link in links if link.model != "reduction"]
+            for name, links in giving("thrust.film").results["thrust.film"](scene).items()
+        }
         found["thrust.film"] = {
-            name: _plus(
-                of("thrust.film", name, *load_links("bearing load max"), Link("thrust", name)),
-                few.get(name),
-            )
-            for name in ("minimum film", "maximum pressure", "friction power")
+            name: _plus(of("thrust.film", name, *links), few.get(name))
+            for name, links in films.items()
         }
     if scene.wants("rolling"):
         kinds = {one.friction_model for one in scene.rolling.geometries.values()}
@@ -111,10 +113,6 @@ def _few_samples(kind: str) -> dict[str, float]:
     """What the few samples of a comparison are off, at most, by quantity; empty: not measured."""
     errors = ladder().get("comparison", {}).get(kind, {}).get("errors", {})
     return {name: float(error["max"]) for name, error in errors.items()}
-
-
-def _has_cones(scene: Scene) -> bool:
-    return len(scene.thrust.collars) < len(scene.thrust.bearings)
 
 
 def _plus(share: float | None, more: float | None) -> float | None:
@@ -139,7 +137,8 @@ def of_link(
     scene: Scene, result: str, quantity: str, link: Link, known: Estimates
 ) -> Iterator[Part]:
     """What the model at one link, and its effects that are left out, add to that error."""
-    gain = gains().get(result.split(".")[0], {}).get(quantity) if link.of_load else 1.0
+    bearings = link.gains or result.split(".")[0]
+    gain = gains().get(bearings, {}).get(quantity) if link.of_load else 1.0
     share = _rung_error(scene, models()[link.model], link.quantity)
     if share != 0.0:
         yield Part(link.model, None, None if share is None or gain is None else share * gain)

@@ -50,11 +50,14 @@ class Link:
         The quantity in the ladder's entry.
     of_load : bool
         Whether it is an error of the load, which the bearing answers with its gain.
+    gains : str
+        Bearings that have that gain; default those of the room of the result.
     """
 
     model: str
     quantity: str
     of_load: bool = False
+    gains: str = ""
 
 
 @dataclass(frozen=True)
@@ -131,9 +134,9 @@ def always(*names: str) -> Callable[[Scene], tuple[str, ...]]:
     return lambda scene: names
 
 
-def load_links(quantity: str, of_load: bool = True) -> tuple[Link, ...]:
+def load_links(quantity: str, of_load: bool = True, gains: str = "") -> tuple[Link, ...]:
     """What a load brings: the errors of wind, rotor and shaft."""
-    return tuple(Link(model, quantity, of_load) for model in ("wind", "loads", "shaft"))
+    return tuple(Link(model, quantity, of_load, gains) for model in ("wind", "loads", "shaft"))
 
 
 Links = Mapping[str, tuple[Link, ...]]

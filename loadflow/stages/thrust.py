@@ -191,7 +191,9 @@ def _by_curve(bearing: AnyAxial, force: np.ndarray, speed: np.ndarray) -> Collar
 
 def _links(scene: Scene) -> Links:
     """The loads, and the films themselves."""
-    through = (*load_links("bearing load max"), Link("reduction", "largest load", of_load=True))
+    whose = "" if len(scene.thrust.collars) == len(scene.thrust.bearings) else "cones"
+    reduced = Link("reduction", "largest load", of_load=True, gains=whose)
+    through = (*load_links("bearing load max", gains=whose), reduced)
     names = ("minimum film", "maximum pressure", "friction power")
     return {name: (*through, Link("thrust", name)) for name in names}
 

@@ -28,6 +28,11 @@ ONE_ROW = SphericalRollerBearing(
 )  # fmt: skip
 
 
+def test_one_row_of_barrels_takes_no_thrust():
+    assert LARGE.takes_thrust
+    assert not ONE_ROW.takes_thrust
+
+
 def stations(n=2000):
     return (np.arange(n) + 0.5) * 2 / n - 1
 

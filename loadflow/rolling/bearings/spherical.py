@@ -68,6 +68,11 @@ class SphericalRollerBearing(RollerRaceways, BearingOfRollers):
             )
 
     @property
+    def takes_thrust(self) -> bool:
+        """Two rows do; one row of barrels stands across the axis, and floats."""
+        return self.rows == 2
+
+    @property
     def contact_curvature(self) -> float:
         """Midway between the raceways, the sphere of the outer ring and as curved, and barrels."""
         sphere = self.pitch_diameter / 2 / math.cos(self.contact_angle) + self.roller_diameter / 2
