@@ -72,7 +72,8 @@ class FilmHeatEquilibrium(_OverArea, WarmEquilibrium):
         grooves of a supply first, then those between segments, then the one at both ends of an
         open film. NaN where none flows.
     film_temperature, film_viscosity : array (…, nx, nz)
-        Of the cells, full width, K and Pa s; in a groove that of the oil which it gives.
+        Of the cells, full width, K and Pa s; in a groove that of the oil which it gives. On the
+        rung "reduced" of the points across.
     surface_temperature : array (…, nx, nz)
         Of the surface of the shell there, K: that of the film but with three points across it.
     thermal_growth : array (…, nx, nz)

@@ -41,7 +41,8 @@ _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
 _REDUCED = frozenset(
-    _LINE | {"shape", "crown", "local_shell", "contact", "heat", "turbulence", "supply"}
+    _LINE
+    | {"shape", "crown", "local_shell", "contact", "heat", "film_heat", "turbulence", "supply"}
 )
 
 
@@ -132,7 +133,7 @@ RUNGS: dict[str, Rung] = {
             f"{_MODELS}.reduced",
             _REDUCED,
             _REDUCED | _WARMING | {"step", "periodic"},
-            _REDUCED - _HEAT - {"moment"},
+            _REDUCED - _HEAT - {"moment", "film_heat"},
         ),
         Rung(
             "grid",

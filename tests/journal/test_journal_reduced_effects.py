@@ -377,9 +377,9 @@ def test_moments_of_little_load_on_a_path_ask_for_no_more_points(monkeypatch):
     """A load that swings through next to nothing around a tilted shaft, as gusts make it."""
     levels = []
 
-    def spy(*given):
+    def spy(*given, **more):
         levels.append(given[-1])
-        return composed_model.build(*given)
+        return composed_model.build(*given, **more)
 
     monkeypatch.setattr(composed_path, "build", spy)
     time = np.linspace(0.0, 6.0, 241)

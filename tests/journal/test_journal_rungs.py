@@ -51,7 +51,7 @@ ASKING = {
     "local_shell": ({"shell": LocalShell(1e-12)}, {}, {}),
     "heat": ({"lubricant": None, "heat": Heat()}, {}, {}),
     "slow_heat": ({"lubricant": None, "heat": Heat(capacity=1e5)}, {}, {}),
-    "film_heat": ({"lubricant": None, "heat": FilmHeat()}, {"shape": Lobes(2)}, {}),
+    "film_heat": ({"lubricant": None, "heat": FilmHeat(shell_transfer=500.0)}, {}, {}),
     "contact": ({"contact": ROUGH}, {}, {}),
     "turbulence": ({"turbulence": Turbulence()}, {}, {}),
     "pressure_coefficient": ({"lubricant": Lubricant(0.03, pressure_coefficient=2e-8)}, {}, {}),

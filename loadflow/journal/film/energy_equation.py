@@ -16,82 +16,40 @@ q_in.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, cast
+from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL
 from loadflow.journal.film import _energy_kernels as kernel
 from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.asperity_load import NodeLoad
-from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
+from loadflow.journal.film.energy_balance import FRESH, Flows
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
 from loadflow.journal.film.ring_growth import RingExpansion
-from loadflow.journal.film.surface_temperatures import Across, Surfaces
-from loadflow.journal.heat import HOTTEST, FilmHeat
-
-if TYPE_CHECKING:
-    from scipy.sparse import csc_matrix
+from loadflow.journal.film.temperatures import Temperatures, Warmth
+from loadflow.journal.heat import FilmHeat
 
 Array = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
-_STEPS = 60  # Newton steps of the temperatures
-_EXACT = 1e-11  # of the largest temperature, a change that is none
-_BURNT = 700.0  # K, beyond which no temperature is looked for
 
-
-@dataclass(frozen=True)
-class Warmth:
-    """Temperatures of a film and where its heat goes; heat is counted from that of fresh oil.
-
-    Attributes
-    ----------
-    cells : array (nx, nz)
-        Temperature of the cells, K; in a groove that of the oil which it gives.
-    shell : array (nx, nz)
-        Temperature of the shell's surface there, K.
-    hottest : float
-        Largest temperature of film and surfaces, K.
-    shaft : float
-        Temperature of the shaft, K.
-    grooves : array (g, 2)
-        Mean temperatures of the oil that flows into each groove and out of it, K.
-    side : float
-        Mean temperature of the oil that leaves at the ends, K.
-    mean : float
-        Mean over the area of the film, K.
-    friction, carried, conducted : float
-        Dissipation; heat that leaves with the oil, and through shell and shaft, W.
-    residual : float
-        Largest imbalance of a cell, over the largest term.
-    """
-
-    cells: Array
-    shell: Array
-    hottest: float
-    shaft: float
-    grooves: Array
-    side: float
-    mean: float
-    friction: float
-    carried: float
-    conducted: float
-    residual: float
+class Solved(Protocol):
+    """A solved film: its unknowns, and the position of the shaft, clearances."""
 
     @property
-    def imbalance(self) -> float:
-        """What is missing of the balance of all heat, over the friction."""
-        missing = self.friction - self.carried - self.conducted
-        return abs(missing) / max(self.friction, 1e-300)
+    def u(self) -> Array:
+        """Unknowns (nx, nz)."""
+
+    @property
+    def position(self) -> Array:
+        """Position (m,)."""
 
 
-class EnergyEquation:
+class EnergyEquation(Temperatures):
     """Energy equation of a film with a `WarmGap`.
 
     Parameters
@@ -105,25 +63,12 @@ class EnergyEquation:
     """
 
     def __init__(self, film: DiscreteFilm, gap: WarmGap, heat: FilmHeat) -> None:
-        self.film, self.gap, self.heat = film, gap, heat
         film.sheared_by_fill = True  # heat is made where there is oil, and friction is that heat
-        self.wet = ~film.grooved
-        self._cells = np.full(film.mesh.shape, FRESH, dtype=np.int64)
-        self.size = int(self.wet.sum())
-        self._cells[self.wet] = np.arange(self.size)
-        labels = _grooves(film)
-        self.grooves = int(labels.max()) + 1
-        self._cells[~self.wet] = self.size + labels[~self.wet]
-        self._line = FRESH
-        if film.ends_supply:
-            self._line = self.size + self.grooves
-            self.grooves += 1
-        area = film.mirrors * film.radius**2 * np.outer(film.mesh.dx, film.mesh.dz)
-        self.volumes = Volumes(area[self.wet], self.grooves, moments=heat.points == 4)
-        self._shaft = heat.inlet_temperature  # of the last solution, as the moments are
-        self._skew: Array | float = 0.0
-        clearance = film.relative_clearance * film.radius
-        self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
+        labels, own = _grooves(film)
+        areas = film.mirrors * film.radius**2 * np.outer(film.mesh.dx, film.mesh.dz)
+        super().__init__(film, heat, areas, labels, own + int(film.ends_supply))
+        self.gap, self.mirrored = gap, film.mesh.half
+        self._line = self.size + own if film.ends_supply else FRESH
         grows = heat.growth is not None
         self._expansion = RingExpansion(heat, film.mesh, film.radius) if grows else None
 
@@ -132,17 +77,12 @@ class EnergyEquation:
 
         Those of the cells, and of a shaft that grows.
         """
-        if warmth is None:
-            cold = self.heat.inlet_temperature
-            cells, shaft = np.full(self.film.mesh.shape, cold), self.heat.shaft_temperature or cold
-        else:
-            cells, shaft = warmth.cells, warmth.shaft
-        return cells.ravel() if self._expansion is None else np.append(cells, shaft)
-
-    def cells_of(self, state: Array) -> Array:
-        """Temperatures of the cells (nx, nz) in a `state`, K."""
-        shape = self.film.mesh.shape
-        return state[: shape[0] * shape[1]].reshape(shape)
+        cells = super().state(warmth)
+        if self._expansion is None:
+            return cells
+        heat = self.heat
+        cold = heat.shaft_temperature or heat.inlet_temperature
+        return np.append(cells, cold if warmth is None else warmth.shaft)
 
     def thicken(self, state: Array) -> None:
         """Give the film the viscosity and the growth of its cells at the temperatures `state`."""
@@ -172,9 +112,9 @@ class EnergyEquation:
         mesh = self.film.mesh
         return float(np.average(self.growth, weights=np.outer(mesh.dx, mesh.dz)))
 
-    def solve(self, u: Array, position: Array, guess: Array) -> Warmth:
-        """Temperatures of the film at unknowns `u` and `position`, as `solve_mean` of one."""
-        return self.solve_mean([(u, position, self.film.speed)], guess)
+    def alone(self, film: Solved, guess: Array) -> Warmth:
+        """Temperatures of one film at the speed that is set, as `solve_mean`."""
+        return self.solve_mean([(film.u, film.position, self.film.speed)], guess)
 
     def solve_mean(self, films: Sequence[tuple[Array, Array, float]], guess: Array) -> Warmth:
         """Temperatures in balance with the mean of the heat that some films make and carry.
@@ -191,7 +131,7 @@ class EnergyEquation:
         loadflow.errors.SolverError
             No temperature is found.
         """
-        heat, film = self.heat, self.film
+        film = self.film
         clearance = film.relative_clearance * film.radius
         unit = film.mirrors * film.viscosity * film.radius**4 / clearance
         each: list[Flows] = []
@@ -203,67 +143,9 @@ class EnergyEquation:
             sheared += unit * speed**2 * shear / len(films)
             pumped += (lost + self._rubbed(position)) / len(films)
             gaps += clearance * self.gap.means[self.wet] / len(films)
-        flows = Flows.mean(each)
-        self._surfaces = Surfaces.of(heat, gaps)
-        volumes, size = self.volumes, self.size
-        if not (sheared.any() or flows.flow.any() or heat.shell_transfer or heat.shaft_transfer):
-            return self._told(self._as_supplied(), flows, sheared, pumped, 0.0)
-        matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
-        t = np.full(volumes.unknowns, heat.inlet_temperature)
-        t[:size] = guess[self.wet]
-        t[volumes.shaft] = float(np.average(t[:size], weights=volumes.area))
-        t[volumes.count :] = self._skew
-        residual = np.inf
-        for _ in range(_STEPS):
-            source, slopes = self._sources(t, sheared, pumped)
-            missing = matrix @ t - rhs - source
-            largest = max(float(np.abs(source).max()), 1e-300)
-            residual = float(np.abs(missing[:size]).max()) / largest
-            step = _solved(matrix - slopes, missing)
-            # nothing is colder than what is given; from there Newton rises without overshooting
-            warm = slice(volumes.count)
-            step[warm] = t[warm] - np.maximum(t[warm] - step[warm], heat.coldest)
-            t = t - step
-            if not float(t[warm].max()) < _BURNT:
-                raise SolverError(
-                    f"the film gets hotter than {HOTTEST} K: some oil does not leave it"
-                )
-            if float(np.abs(step).max()) < _EXACT * HOTTEST:
-                break
-        else:
-            raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
-        self._shaft, self._skew = float(t[volumes.shaft]), volumes.skew(t)
-        return self._told(t, flows, sheared, pumped, residual)
+        return self.balanced(Flows.mean(each), gaps, sheared, pumped, guess)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _as_supplied(self) -> Array:
-        """Unknowns of a film that stands, makes no heat and passes none on."""
-        t = np.zeros(self.volumes.unknowns)
-        t[: self.volumes.count] = self.heat.inlet_temperature
-        return t
-
-    def _sources(self, t: Array, sheared: Array, pumped: Array) -> tuple[Array, csc_matrix]:
-        """Heat made in the cells, its first moment, and their changes by the unknowns."""
-        volumes, cells = self.volumes, np.arange(self.size)
-        across = self._viscosity(t[: self.size], float(t[volumes.shaft]), volumes.skew(t))
-        made = sheared * across.film.shear
-        source = np.zeros(volumes.unknowns)
-        source[: self.size] = made + pumped
-        entries = [(sheared * across.by_mean, cells, cells)]
-        if volumes.moments:
-            source[volumes.count :] = made * across.moment
-            behind = volumes.count + cells
-            entries.append((sheared * across.by_skew, cells, behind))
-            entries.append((sheared * across.by_mean * across.moment, behind, cells))
-            entries.append((sheared * across.by_skew * across.moment, behind, behind))
-        shape = (volumes.unknowns, volumes.unknowns)
-        values, rows, columns = (np.concatenate(x) for x in zip(*entries))
-        return source, sparse(values, rows, columns, shape)
-
-    def _viscosity(self, mean: Array, shaft: float, skew: Array | float) -> Across:
-        """Viscosity of the wet cells at their `mean` and `skew`, K."""
-        return self._surfaces.viscosity(self.heat, self.film.viscosity, mean, shaft, skew)
-
     def _given(self, u: Array, position: Array) -> tuple[Flows, Array, Array]:
         """Flows; shear and dissipation by pressure of the wet cells."""
         film, mesh = self.film, self.film.mesh
@@ -357,81 +239,13 @@ class EnergyEquation:
         way = np.where(on, 1.0, -1.0)
         return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
 
-    def _told(
-        self,
-        t: Array,
-        flows: Flows,
-        sheared: Array,
-        pumped: Array,
-        residual: float,
-    ) -> Warmth:
-        """The temperatures `t` by their names, and where the heat goes."""
-        heat, size, volumes = self.heat, self.size, self.volumes
-        heavy, fresh = heat.volume_heat, heat.inlet_temperature
-        surfaces, state = self._surfaces, (t[:size], float(t[volumes.shaft]), volumes.skew(t))
-        carried = np.zeros_like(flows.flow)
-        driven = flows.flow - flows.drag
-        for surface, part in ((surfaces.dragged, flows.drag), (surfaces.pressed, driven)):
-            above = np.append(t[: volumes.count] - fresh, 0.0)  # the last one is fresh oil
-            above[:size] = surface.at(*state) - fresh
-            carried += part * above[flows.source]
-        from_cell = (flows.source >= 0) & (flows.source < size)
-        leaves = from_cell & ((flows.sink == FRESH) | (flows.sink >= size))
-        given = (flows.source >= size) & (flows.sink >= 0) & (flows.sink < size)
-        out = heavy * float(carried[leaves].sum() - carried[given].sum())
-        shell, turns = surfaces.shell.at(*state), surfaces.shaft.at(*state)
-        through = volumes.area * (shell - heat.shell_temperature) * heat.shell_transfer
-        through += volumes.area * (turns - t[volumes.shaft]) * heat.shaft_transfer
-        between = [one.at(*state) for one in surfaces.between]
-        ends = from_cell & (flows.sink == FRESH)
-        side = flows.flow[ends].sum()
-        grooves = np.full((self.grooves, 2), np.nan)
-        for number in range(self.grooves):
-            comes = flows.sink == size + number
-            if flows.flow[comes].sum() > 0.0:
-                grooves[number, 0] = fresh + carried[comes].sum() / flows.flow[comes].sum()
-            if (flows.source == size + number).any():
-                grooves[number, 1] = t[size + number]
-        every = np.append(t[: volumes.count], np.nan)
-        return Warmth(
-            cells=every[self._cells],
-            shell=np.append(shell, every[size:])[self._cells],
-            hottest=float(np.max([shell, turns, *between])),
-            shaft=state[1],
-            grooves=grooves,
-            side=fresh + float(carried[ends].sum() / side) if side > 0.0 else fresh,
-            mean=float(np.average(t[:size], weights=volumes.area)),
-            friction=float((sheared * self._viscosity(*state).film.shear + pumped).sum()),
-            carried=out,
-            conducted=float(through.sum()),
-            residual=residual,
-        )
 
-
-def _grooves(film: DiscreteFilm) -> Numbers:
-    """Number of the groove of each cell (nx, nz), those of a supply first; −1 for none."""
+def _grooves(film: DiscreteFilm) -> tuple[Numbers, int]:
+    """Number of the groove of each cell (nx, nz), a supply's first, −1 for none; their count."""
     labels = film.pockets.numbers.astype(np.int64).copy()
     own = film.grooved & ~film.pockets.fixed
     columns = np.asarray(own.any(axis=1))
     starts = columns & ~np.append(np.zeros(1, dtype=bool), columns[:-1])
     run = np.cumsum(starts) - 1 + film.pockets.count
-    return np.where(own, run[:, None], labels)
-
-
-def _solved(matrix: csc_matrix, rhs: Array) -> Array:
-    """Solution of a sparse system.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        The system has none: nothing takes the heat of some cell.
-    """
-    from scipy.sparse.linalg import splu
-
-    try:
-        found = splu(matrix).solve(rhs)
-    except RuntimeError as error:
-        raise SolverError("temperatures of the film: nothing takes its heat") from error
-    if not np.isfinite(found).all():
-        raise SolverError("temperatures of the film: nothing takes its heat")
-    return np.asarray(found)
+    labels = np.where(own, run[:, None], labels)
+    return labels, int(labels.max()) + 1

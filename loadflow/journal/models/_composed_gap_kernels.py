@@ -61,6 +61,22 @@ def place(film, work, q):
             put(face[DRAG], here, after)
     if film.regime.on:
         _turbulent_gap(film, work)
+    if film.uneven.on:
+        _thickened_gap(film, work)
+
+
+@once
+def _thickened_gap(film, work):
+    """Conductances of a liquid of uneven viscosity, from those of one viscosity."""
+    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
+    gap, face = work.gap, work.face
+    for i in range(nx):
+        for k in range(film.nodes.z.size):
+            gap[CUBE, i, k] /= film.uneven.cells[i, k]
+            work.gap_slope[i, k] /= film.uneven.cells[i, k]
+        for k in range(m):
+            face[FLOW, i, k] /= film.uneven.faces[i, k]
+            face[FLOW_SLOPE, i, k] /= film.uneven.faces[i, k]
 
 
 @once

@@ -40,6 +40,7 @@ def summarise(film, work, q, wedge, rate, row):
     p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
     mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
     plain = film.rough.size == 0.0 and not (film.yielding.on or film.regime.on or film.held.on)
+    plain = plain and not film.uneven.on
     for at in range(0, wide, LANES):
         lost, sheared_at = spread(0.0), spread(0.0)
         liquid_at, volume_at = spread(0.0), spread(0.0)
@@ -193,7 +194,11 @@ def _cut_off(film, work):
 
 @once
 def _uneven(film, work):
-    """Shear between rough surfaces, of turbulent flow or beside grooves, and growth of the gap."""
+    """Shear where it is not that of an even gap, and growth of the gap.
+
+    Between rough surfaces, of turbulent flow, beside grooves, of an uneven viscosity; of this one
+    also fills `work.sheared`.
+    """
     points, m, rough = film.nodes.z.size, film.nodes.slopes.shape[1], film.rough
     far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
     numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
@@ -214,7 +219,13 @@ def _uneven(film, work):
                 inverse *= factor(h, numbers, SHEAR)[0]
             if film.held.on and k < m:
                 inverse *= film.held.drags[i, k]
-            shear += film.nodes.weights[k] * film.ring.width[i] * inverse
+            if film.uneven.on:
+                inverse *= work.state[FILL, i, k] if k < m else film.ring.edge_fill
+            part = film.nodes.weights[k] * film.ring.width[i] * inverse
+            if film.uneven.on:
+                work.sheared[i, k] = part
+                part *= film.uneven.cells[i, k]
+            shear += part
     return shear, grown
 
 

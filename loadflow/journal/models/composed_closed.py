@@ -19,6 +19,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._pad_kernels import BEFORE, LAST
+from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import contact_share, warn_unresolved
 from loadflow.journal.models.composed_path import (
     STEP_BEFORE,
@@ -47,10 +48,11 @@ def orbit(
     control: Limits,
     steps: Steps,
     begin: Callable[[], Array],
+    viscosity: Thickness | None = None,
 ) -> tuple[dict[str, Any], dict[str, float]]:
     """Variables of the closed path over time, and its closure and periods.
 
-    `begin` is that of `composed_path.orbit`.
+    `begin` and `viscosity` are those of `composed_path.orbit`.
 
     Raises
     ------
@@ -67,7 +69,8 @@ def orbit(
     past = np.append(0, np.arange(count))  # the first time has one before it
     times = time[past]
     times[0] -= time[-1] - time[-2]
-    drive = Drive(bearing, options, times, force[past], speed[past], line.at(past), control)
+    given = bearing, options, times, force[past], speed[past], line.at(past), control
+    drive = Drive(*given, viscosity=viscosity)
     march = march_of(drive, steps)
     period = _Period(march, steps)
     for level in march.levels:

@@ -201,6 +201,47 @@ class Regime(NamedTuple):
 LAMINAR = Regime(False, 0.0, 0.0, 0.0, 0.0)
 
 
+class Uneven(NamedTuple):
+    """Viscosity that changes around and across, over that of the film.
+
+    Friction then counts where there is liquid, as heat is made there.
+
+    Attributes
+    ----------
+    on : bool
+        Whether it does.
+    cells, faces : array (nx, l)
+        At the points, and on the way between those of each column and of the next.
+    """
+
+    on: bool
+    cells: Array
+    faces: Array
+
+
+class Thickness(NamedTuple):
+    """Viscosity of cells around and across, over that of the film, to be had at any points.
+
+    Attributes
+    ----------
+    z : array (s,)
+        Increasing, from mid-plane, shaft radii.
+    values : array (nx, s)
+        On even cells around.
+    """
+
+    z: Array
+    values: Array
+
+    def at(self, points: Array) -> Uneven:
+        """The same at `points` across (l,), straight between its own."""
+        cells = np.stack([np.interp(points, self.z, row) for row in self.values])
+        return Uneven(True, cells, 0.5 * (cells + np.roll(cells, -1, axis=0)))
+
+
+EVEN = Uneven(False, _NONE_AROUND, _NONE_AROUND)
+
+
 class Composed(NamedTuple):
     """Constants of a film with effects.
 
@@ -224,6 +265,8 @@ class Composed(NamedTuple):
         Whether the flow may be turbulent.
     held : Held
         What grooves of a supply hold.
+    uneven : Uneven
+        Viscosity of the points.
     """
 
     ring: Ring
@@ -235,6 +278,7 @@ class Composed(NamedTuple):
     yielding: Yielding
     regime: Regime
     held: Held
+    uneven: Uneven
 
 
 class ComposedWork(NamedTuple):
@@ -297,6 +341,8 @@ class ComposedWork(NamedTuple):
         position; the rate of these, 1/s.
     fed : array (g,)
         Flow of the grooves of a supply into the film, as `balance` has it.
+    sheared : array (nx, L)
+        Shear of the points at the film's one viscosity, where `Uneven.on`.
     """
 
     u: Array
@@ -327,6 +373,7 @@ class ComposedWork(NamedTuple):
     past: Array
     kept: Array
     fed: Array
+    sheared: Array
 
 
 def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedWork:
@@ -362,4 +409,5 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         past=np.zeros(7),
         kept=np.zeros(2),
         fed=np.zeros(grooves),
+        sheared=np.zeros(shape),
     )

@@ -22,11 +22,13 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models.composed_contact import depth_at, rough_of, yielding_of
 from loadflow.journal.models.composed_film import (
+    EVEN,
     LAMINAR,
     Composed,
     ComposedWork,
     Places,
     Regime,
+    Thickness,
     lanes_of,
     make_work,
 )
@@ -286,11 +288,13 @@ def build(
     *,
     at_rest: bool = False,
     across: int | None = None,
+    viscosity: Thickness | None = None,
 ) -> ComposedFilm:
     """Put a film on cells around and points across, of which each `level` has more.
 
     What a path asks on further points is whether few would do; a film `at_rest` whether these do.
     There are `across` of them beside no groove, if they are told.
+    `viscosity` is that of the cells where it is uneven.
     """
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
@@ -311,7 +315,7 @@ def build(
         ring, nodes, places, lanes_of(nodes, places.depth), give,
         rough_of(bearing, options.contact, whole, units),
         yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring),
-        _regime(bearing, options), held,
+        _regime(bearing, options), held, EVEN if viscosity is None else viscosity.at(nodes.z),
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
     return ComposedFilm(bearing, options, line, units, film, work)

@@ -24,6 +24,7 @@ from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._pad_kernels import LAST
 from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_creep import Creep
+from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     build,
@@ -74,7 +75,10 @@ class State(NamedTuple):
 
 @dataclass(frozen=True)
 class Drive:
-    """What drives a path, its limits, and its films, one for each level that has been asked for."""
+    """What drives a path, its limits, and its films, one for each level that has been asked for.
+
+    `viscosity` is that of the cells where it is uneven.
+    """
 
     bearing: JournalGeometry
     options: Film
@@ -84,6 +88,7 @@ class Drive:
     line: Line
     control: Limits
     films: dict[int, ComposedFilm] = field(default_factory=dict)
+    viscosity: Thickness | None = None
 
     @property
     def specific_load(self) -> Array:
@@ -94,7 +99,8 @@ class Drive:
     def film(self, level: int) -> ComposedFilm:
         """The film with the points across of a level."""
         if level not in self.films:
-            model = build(self.bearing, self.options, self.speed, self.line, level)
+            given = self.bearing, self.options, self.speed, self.line, level
+            model = build(*given, viscosity=self.viscosity)
             model.units.raise_scale(float(self.specific_load.max()))
             film = model.film._replace(ring=model.film.ring._replace(scale=model.units.scale))
             self.films[level] = replace(model, film=film)
@@ -107,6 +113,8 @@ class March:
     def __init__(self, drive: Drive, steps: Steps) -> None:
         self.drive, self.start, self.accuracy = drive, steps.start, steps.accuracy
         self.levels = levels_of(drive.options)
+        if drive.viscosity is not None:  # as fine as the temperatures are
+            self.levels = self.levels[-1:]
         self.model = model = drive.film(self.levels[0])
         contact = drive.options.contact
         rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
@@ -309,10 +317,12 @@ def orbit(
     control: Limits,
     steps: Steps,
     begin: Callable[[], Array],
+    viscosity: Thickness | None = None,
 ) -> dict[str, Any]:
     """Variables of the path over time.
 
-    `begin` finds the first position (4,) where none is given and the film alone does not.
+    `begin` finds the first position (4,) where none is given and the film alone does not;
+    `viscosity` is that of `Drive`.
 
     Raises
     ------
@@ -324,7 +334,7 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    drive = Drive(bearing, options, time, force, speed, line, control)
+    drive = Drive(bearing, options, time, force, speed, line, control, viscosity=viscosity)
     march = march_of(drive, steps)
     model, rows = march.model, march.rows
     for level in march.levels:

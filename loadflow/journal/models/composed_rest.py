@@ -15,6 +15,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
+from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
@@ -91,12 +92,14 @@ def films_at_rest(
     level: int,
     begun: Known | None = None,
     may_leave: bool = False,
+    viscosity: Thickness | None = None,
 ) -> RestingFilms:
     """Films on the points of a `level`; those of loads that are `begun` begin there.
 
-    Loads that surely ask for more cells around are not solved if these `may_leave`.
+    Loads that surely ask for more cells around are not solved if these `may_leave`; `viscosity` is
+    that of `build`.
     """
-    model = build(bearing, options, speed, line, level, at_rest=True)
+    model = build(bearing, options, speed, line, level, at_rest=True, viscosity=viscosity)
     work, count = model.work, speed.size
     rows = np.zeros((count, model.columns))
     both = 4 if model.whole else 2

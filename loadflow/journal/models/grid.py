@@ -32,10 +32,9 @@ from loadflow.journal.solvers.transient import (
     orbit_row,
 )
 from loadflow.journal.solvers.warm import warm_fields, warm_rows
-from loadflow.journal.solvers.warm_mean import MeanHeat, mean_heat
+from loadflow.journal.solvers.warm_mean import mean_heat, with_temperatures
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.one_thread import on_one_thread
-from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -136,18 +135,7 @@ def _path(
         del values["steps"]
     about["mass_balance"] = mass_balance(*ends, rows, time)
     path = orbit_dataset(values, time, force, speed, bearing.clearance).assign_attrs(about)
-    return path if warmth is None else _warm(path, warmth, bearing.clearance)
-
-
-def _warm(path: xr.Dataset, heat: MeanHeat, clearance: float) -> xr.Dataset:
-    """The path with the temperature of its film."""
-    grown = 1.0 + heat.equation.mean_growth / clearance
-    ratio = path["eccentricity_ratio"]
-    warm = np.full(path.sizes["time"], heat.warmth.mean)
-    return path.assign(
-        temperature=("time", warm, FILM["temperature"].attributes),
-        eccentricity_ratio=(ratio / grown).assign_attrs(ratio.attrs),
-    ).assign_attrs(heat.said)
+    return path if warmth is None else with_temperatures(path, warmth, bearing.clearance)
 
 
 def _lines(bearing: JournalGeometry, line: Line, count: int) -> Array | None:

@@ -195,6 +195,8 @@ def _pairs(
     if film.rung == "reduced":
         closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
         yield "step", "adaptive", closed and steps.step == "adaptive", given
+    if film.rung == "reduced" and over_area:
+        yield from _around_alone(film, bearing)
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
@@ -216,6 +218,17 @@ def _pairs(
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
     allowed = 'None with heat that is stored, but on rung = "reduced"'
     yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
+
+
+def _around_alone(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
+    """What does not go with temperatures that change around alone; as `_pairs`."""
+    heat, here = film.heat, 'with heat over the area on rung = "reduced"'
+    yield "shape", bearing.shape, bool(bearing.shape.segments), f"a whole bore {here}"
+    yield "supply", film.supply, True, f"None {here}"
+    yield "heat.points", getattr(heat, "points", 1), getattr(heat, "points", 1) != 1, f"1 {here}"
+    yield "heat.growth", getattr(heat, "growth", None), True, f"None {here}"
+    settled = getattr(heat, "stiffness", "") == "settled"
+    yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
 
 
 def _beside_grooves(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:

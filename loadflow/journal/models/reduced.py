@@ -26,6 +26,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import (
     composed,
     composed_closed,
+    composed_heat,
     composed_path,
     composed_position,
     grid,
@@ -49,6 +50,7 @@ from loadflow.journal.rows import answered_rows, operating_columns, without_supp
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
 from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
 from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
+from loadflow.journal.solvers.warm_mean import with_temperatures
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:
@@ -73,6 +75,8 @@ def equilibrium(
     if Bore.of(bearing).pads:
         return grid.equilibrium(bearing, options, force, speed, line, control)
     force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
+    if options.heat is not None:
+        return composed_heat.equilibrium(bearing, options, force, speed, line, control)
     if composed.composes(bearing, options, line):
         answer, found, none = composed.equilibrium(bearing, options, force, speed, line, control)
         answer["converged"] = found
@@ -207,20 +211,32 @@ def _path(
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
+    over_area, viscosity, bare = None, None, options
+    if options.heat is not None and options.heat.over_area:
+        many_steps = replace(control, max_iterations=2 * control.max_iterations)
+        given = bearing, options, force, speed, line, many_steps
+        over_area, viscosity = composed_heat.mean_around(*given)
+        bare = options.isothermal()
+
+    def told(values: dict[str, Any]) -> xr.Dataset:
+        """The path of some values over time."""
+        path = orbit_dataset(values, time, force, speed, bearing.clearance)
+        return path if over_area is None else with_temperatures(path, over_area, bearing.clearance)
+
     if steps.periodic:
         check_period(time, force, speed, line)
         if not (bearing.shape.segments or bearing.relief or options.supply or not line.straight):
             check_half_speed_whirl(time, force, speed)
         values, about = composed_closed.orbit(
-            bearing, options, time, force, speed, line, control, steps, first_position
+            bearing, bare, time, force, speed, line, control, steps, first_position, viscosity
         )
-        path = orbit_dataset(values, time, force, speed, bearing.clearance)
-        return path.assign_attrs(about)
-    if Bore.of(bearing).pads or composed.composes(bearing, options, line):
+        return told(values).assign_attrs(about)
+    effects = over_area is not None or composed.composes(bearing, options, line)
+    if effects or Bore.of(bearing).pads:
         values = composed_path.orbit(
-            bearing, options, time, force, speed, line, control, steps, first_position
+            bearing, bare, time, force, speed, line, control, steps, first_position, viscosity
         )
-        return orbit_dataset(values, time, force, speed, bearing.clearance)
+        return told(values)
     film = units_of(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     reduced, work = _discrete(bearing, options, film)

@@ -10,14 +10,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film.energy_equation import EnergyEquation, Warmth
+from loadflow.journal.film.energy_equation import EnergyEquation
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
@@ -32,7 +34,7 @@ from loadflow.numerics.fields import require
 Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
 """The film at given viscosities, from the last solution."""
-HeatOf = Callable[[Array], Warmth]
+HeatOf = Callable[[Solution, Array], Warmth]
 """Temperatures in balance with the film last solved, from a first guess (nx, nz)."""
 
 TOLERANCE, TRIES = 1e-7, 150
@@ -104,7 +106,7 @@ def warm_rows(
             def film_of(before: Solution | None) -> Solution:
                 return statics.solve(index, loads[index], omega, before, each)
 
-            return coupled(equation, film_of, last)
+            return coupled(equation, film_of, last, equation.alone)
 
         found = found_on(statics, equation, last)
         if not found.converged and last is not None:
@@ -116,7 +118,7 @@ def warm_rows(
             if better.converged or not better.lost or found.warmth is None:
                 found, used = better, on_more
         if not found.converged and control.strict:
-            why = _no_warmth(found) or used[0].message(found.solution, load)
+            why = no_warmth(found) or used[0].message(found.solution, load)
             raise SolverError(f"load {index}: {why}")
         row = _row(bearing, *used, load, found, line.whirl)
         if found.converged and found.warmth is not None:
@@ -157,7 +159,7 @@ def _settled_stiffness(
                 start = film.start() if before is None else before.u
                 return solve_film(film, start, place, np.zeros(size), *limits)
 
-            found = coupled(equation, film_of, last)
+            found = coupled(equation, film_of, last, equation.alone)
             if not found.converged:
                 if control.strict:
                     raise SolverError(f"no temperatures beside the equilibrium: {found.why}")
@@ -168,7 +170,7 @@ def _settled_stiffness(
     return columns * np.outer(lengths, lengths) / bearing.clearance
 
 
-def _no_warmth(found: WarmFilm) -> str:
+def no_warmth(found: WarmFilm) -> str:
     """Why there are no temperatures; where there is no film, the film says why."""
     if found.lost and not found.seized and _WARMS < found.residual < np.inf:
         return (
@@ -186,8 +188,7 @@ def _at_angles(row: dict[str, Any], angle: Array) -> dict[str, Any]:
         columns = [np.interp(angle, own, values, period=2.0 * np.pi) for values in field.T]
         return np.stack(columns, axis=1)
 
-    names = ("film_temperature", "surface_temperature", "thermal_growth", "film_viscosity")
-    return row | {name: moved(row[name]) for name in names} | {"angle": angle}
+    return row | {name: moved(row[name]) for name in OVER_AREA} | {"angle": angle}
 
 
 def warm_fields(
@@ -208,13 +209,13 @@ def warm_fields(
         def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
             return statics.hold(index, places[index], velocities[index], omega, control)
 
-        found = coupled(equation, film_of, None)
+        found = coupled(equation, film_of, None, equation.alone)
         if not found.converged and control.strict:
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, statics.gap, _flagged(found))
         row["eccentricity_ratio"] /= 1.0 + equation.mean_growth / bearing.clearance
-        rows.append(row | _heat_columns(equation, found))
+        rows.append(row | heat_columns(equation, found))
     return rows, statics.film.mesh.z * bearing.radius
 
 
@@ -232,15 +233,30 @@ def energy_of(statics: Statics) -> EnergyEquation:
     return EnergyEquation(statics.film, gap, heat)
 
 
+class Equation(Protocol):
+    """An energy equation that is solved beside its film, as `EnergyEquation` has it."""
+
+    film: DiscreteFilm
+
+    def state(self, warmth: Warmth | None) -> Array:
+        """Temperatures by which the film is as it is; without `warmth` those of cold oil."""
+
+    def cells_of(self, state: Array) -> Array:
+        """Those of the cells (nx, nz)."""
+
+    def thicken(self, state: Array) -> None:
+        """Give the film the viscosity that it has at a `state`."""
+
+
 def coupled(
-    equation: EnergyEquation,
+    equation: Equation,
     film_of: FilmOf,
     last: tuple[Solution, Warmth] | None,
-    heat_of: HeatOf | None = None,
+    heat_of: HeatOf,
 ) -> WarmFilm:
     """Film and temperatures that agree, from those of the `last` load or from cold oil.
 
-    `heat_of` has the temperatures of a film, by default those in balance with it alone.
+    `heat_of` has the temperatures of the film last solved.
     """
     film = equation.film
     cold = equation.state(None)
@@ -266,10 +282,7 @@ def coupled(
             continue
         try:
             cells = equation.cells_of(now)
-            if heat_of is None:
-                warmth = equation.solve(solution.u, solution.position, cells)
-            else:
-                warmth = heat_of(cells)
+            warmth = heat_of(solution, cells)
         except SolverError as error:
             return WarmFilm(solution, None, residual, iteration, False, str(error))
         found = equation.state(warmth)
@@ -342,7 +355,7 @@ def _row(
         row |= _grown(row, bearing, equation, found)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
     both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
-    return row | _heat_columns(equation, found) | {"angle": angle, "z": both}
+    return row | heat_columns(equation, found) | {"angle": angle, "z": both}
 
 
 def _grown(
@@ -364,13 +377,13 @@ def _grown(
     }
 
 
-def _heat_columns(equation: EnergyEquation, found: WarmFilm) -> dict[str, Any]:
+def heat_columns(equation: Temperatures, found: WarmFilm) -> dict[str, Any]:
     """What a result says of its temperatures; NaN where there are none."""
-    film, oil = equation.film, equation.heat.liquid
+    oil = equation.heat.liquid
     warmth = found.warmth if found.converged else None
     said: dict[str, Any]
     if warmth is None:
-        field, grooves = np.full(film.mesh.shape, np.nan), np.full((equation.grooves, 2), np.nan)
+        field, grooves = np.full(equation.shape, np.nan), np.full((equation.grooves, 2), np.nan)
         shell = growth = field
         said = dict.fromkeys(_NUMBERS, np.nan)
     else:
@@ -387,7 +400,7 @@ def _heat_columns(equation: EnergyEquation, found: WarmFilm) -> dict[str, Any]:
             "heat_conducted": warmth.conducted,
             "heat_imbalance": warmth.imbalance,
         }
-    if film.mesh.half:
+    if equation.mirrored:
         field, shell, growth = (
             np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell, growth)
         )
@@ -402,6 +415,9 @@ def _heat_columns(equation: EnergyEquation, found: WarmFilm) -> dict[str, Any]:
         "heat_iterations": found.iterations,
     }
 
+
+OVER_AREA = ("film_temperature", "surface_temperature", "thermal_growth", "film_viscosity")
+"""What results say of every cell."""
 
 _NUMBERS = (
     "friction_power",

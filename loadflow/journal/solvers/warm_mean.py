@@ -9,16 +9,21 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError, ValidityWarning
-from loadflow.journal.film.energy_equation import EnergyEquation, Warmth
+from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import coupled, energy_of
 from loadflow.numerics.convergence import Limits
+from loadflow.quantities import FILM
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 Array = NDArray[np.float64]
 
@@ -33,7 +38,7 @@ LEFT_OUT = 0.1
 class MeanHeat:
     """Temperatures that a film keeps in motion; what is left of them, K, and fields tried."""
 
-    equation: EnergyEquation
+    equation: Temperatures
     warmth: Warmth
     residual: float
     iterations: int
@@ -52,6 +57,33 @@ class MeanHeat:
         if equation.heat.growth is not None:
             numbers["mean_growth"] = equation.mean_growth
         return numbers
+
+
+def series_loads(count: int) -> list[int]:
+    """Numbers of the loads of a series, of `count`, whose mean heat is taken."""
+    return np.unique(np.linspace(0, count - 1, SAMPLES).round().astype(int)).tolist()
+
+
+def warn_left_out(found: int, asked: int) -> None:
+    """Warn of loads without a film at rest, if `found` are few of those `asked`."""
+    if found < (1.0 - LEFT_OUT) * asked:
+        warnings.warn(
+            f"temperatures of the film: at rest {asked - found} of {asked} loads of "
+            "the series have none; they are those of the others",
+            ValidityWarning,
+            stacklevel=6,
+        )
+
+
+def with_temperatures(path: xr.Dataset, heat: MeanHeat, clearance: float) -> xr.Dataset:
+    """The path with the temperature of its film."""
+    grown = 1.0 + heat.equation.mean_growth / clearance
+    ratio = path["eccentricity_ratio"]
+    warm = np.full(path.sizes["time"], heat.warmth.mean)
+    return path.assign(
+        temperature=("time", warm, FILM["temperature"].attributes),
+        eccentricity_ratio=(ratio / grown).assign_attrs(ratio.attrs),
+    ).assign_attrs(heat.said)
 
 
 def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) -> MeanHeat:
@@ -77,7 +109,7 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         More than `LEFT_OUT` of the loads have no film at rest.
     """
     equation = energy_of(statics)
-    some = np.unique(np.linspace(0, len(loads) - 1, SAMPLES).round().astype(int)).tolist()
+    some = series_loads(len(loads))
     each = replace(control, strict=False)
     found: dict[int, Solution] = {}
 
@@ -92,7 +124,7 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
                 found[index] = worst = solution
         return replace(worst, iterations=spent)
 
-    def heat_of(cells: Array) -> Warmth:
+    def heat_of(last: Solution, cells: Array) -> Warmth:
         films = [(one.u, one.position, float(speeds[index])) for index, one in found.items()]
         return equation.solve_mean(films, cells)
 
@@ -100,12 +132,6 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
     if not warm.converged or warm.warmth is None:
         why = warm.why or "no load of the series has a film at rest"
         raise SolverError(f"orbit cannot start: {why}")
-    if len(found) < (1.0 - LEFT_OUT) * len(some):
-        warnings.warn(
-            f"temperatures of the film: at rest {len(some) - len(found)} of {len(some)} loads of "
-            "the series have none; they are those of the others",
-            ValidityWarning,
-            stacklevel=5,
-        )
+    warn_left_out(len(found), len(some))
     equation.thicken(equation.state(warm.warmth))
     return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations)

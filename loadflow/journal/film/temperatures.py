@@ -1,0 +1,290 @@
+"""Temperatures of the numbered volumes of a film: Newton's method, and where the heat goes.
+
+What a film has beside them, its flows, its gap and what it dissipates, is given; the viscosity
+follows the temperatures within the solution.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError
+from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.surface_temperatures import Across, Surfaces
+from loadflow.journal.heat import HOTTEST, FilmHeat
+
+if TYPE_CHECKING:
+    from scipy.sparse import csc_matrix
+
+Array = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+_STEPS = 60  # Newton steps of the temperatures
+_EXACT = 1e-11  # of the largest temperature, a change that is none
+_BURNT = 700.0  # K, beyond which no temperature is looked for
+
+
+@dataclass(frozen=True)
+class Warmth:
+    """Temperatures of a film and where its heat goes; heat is counted from that of fresh oil.
+
+    Attributes
+    ----------
+    cells : array (nx, nz)
+        Temperature of the cells, K; in a groove that of the oil which it gives.
+    shell : array (nx, nz)
+        Temperature of the shell's surface there, K.
+    hottest : float
+        Largest temperature of film and surfaces, K.
+    shaft : float
+        Temperature of the shaft, K.
+    grooves : array (g, 2)
+        Mean temperatures of the oil that flows into each groove and out of it, K.
+    side : float
+        Mean temperature of the oil that leaves at the ends, K.
+    mean : float
+        Mean over the area of the film, K.
+    friction, carried, conducted : float
+        Dissipation; heat that leaves with the oil, and through shell and shaft, W.
+    residual : float
+        Largest imbalance of a cell, over the largest term.
+    """
+
+    cells: Array
+    shell: Array
+    hottest: float
+    shaft: float
+    grooves: Array
+    side: float
+    mean: float
+    friction: float
+    carried: float
+    conducted: float
+    residual: float
+
+    @property
+    def imbalance(self) -> float:
+        """What is missing of the balance of all heat, over the friction."""
+        missing = self.friction - self.carried - self.conducted
+        return abs(missing) / max(self.friction, 1e-300)
+
+
+class Temperatures:
+    """Temperatures of the cells and grooves of a film.
+
+    Parameters
+    ----------
+    film : DiscreteFilm
+        Its viscosity is that of the oil as it enters.
+    heat : FilmHeat
+        Oil and cooling.
+    areas : array (nx, nz)
+        Of the cells, m².
+    labels : array of int (nx, nz)
+        Numbers of the grooves that cells belong to; −1: none.
+    grooves : int
+        Volumes in which oil mixes, those without cells behind the others.
+
+    Attributes
+    ----------
+    mirrored : bool
+        Whether the cells are those of one half of the width.
+    """
+
+    mirrored = False
+
+    def __init__(
+        self, film: DiscreteFilm, heat: FilmHeat, areas: Array, labels: Numbers, grooves: int
+    ) -> None:
+        self.film, self.heat, self.grooves = film, heat, grooves
+        self.wet = labels < 0
+        self.size = int(self.wet.sum())
+        self._cells = self.size + labels
+        self._cells[self.wet] = np.arange(self.size)
+        self.volumes = Volumes(areas[self.wet], grooves, moments=heat.points == 4)
+        self._shaft = heat.inlet_temperature  # of the last solution, as the moments are
+        self._skew: Array | float = 0.0
+        clearance = film.relative_clearance * film.radius
+        self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Cells around and across."""
+        nx, nz = self._cells.shape
+        return nx, nz
+
+    @property
+    def growth(self) -> Array:
+        """Growth of the gap of the cells by heat, (nx, nz), m: none."""
+        return np.zeros(self.shape)
+
+    @property
+    def mean_growth(self) -> float:
+        """The same on average over the cells, m."""
+        return 0.0
+
+    def state(self, warmth: Warmth | None) -> Array:
+        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil."""
+        if warmth is None:
+            return np.full(self._cells.size, self.heat.inlet_temperature)
+        return warmth.cells.ravel()
+
+    def cells_of(self, state: Array) -> Array:
+        """Temperatures of the cells (nx, nz) in a `state`, K."""
+        return state[: self._cells.size].reshape(self.shape)
+
+    def balanced(
+        self, flows: Flows, gaps: Array, sheared: Array, pumped: Array, guess: Array
+    ) -> Warmth:
+        """Temperatures in balance with what a film carries and makes.
+
+        Parameters
+        ----------
+        flows : Flows
+            Between the volumes.
+        gaps : array (size,)
+            Of the wet cells, m.
+        sheared, pumped : array (size,)
+            Heat of the wet cells, W: by shear at the film's one viscosity, and what is given.
+        guess : array (nx, nz)
+            Temperatures to start from, K.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            No temperature is found.
+        """
+        heat = self.heat
+        self._surfaces = Surfaces.of(heat, gaps)
+        volumes, size = self.volumes, self.size
+        if not (sheared.any() or flows.flow.any() or heat.shell_transfer or heat.shaft_transfer):
+            return self._told(self._as_supplied(), flows, sheared, pumped, 0.0)
+        matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
+        t = np.full(volumes.unknowns, heat.inlet_temperature)
+        t[:size] = guess[self.wet]
+        t[volumes.shaft] = float(np.average(t[:size], weights=volumes.area))
+        t[volumes.count :] = self._skew
+        residual = np.inf
+        for _ in range(_STEPS):
+            source, slopes = self._sources(t, sheared, pumped)
+            missing = matrix @ t - rhs - source
+            largest = max(float(np.abs(source).max()), 1e-300)
+            residual = float(np.abs(missing[:size]).max()) / largest
+            step = _solved(matrix - slopes, missing)
+            # nothing is colder than what is given; from there Newton rises without overshooting
+            warm = slice(volumes.count)
+            step[warm] = t[warm] - np.maximum(t[warm] - step[warm], heat.coldest)
+            t = t - step
+            if not float(t[warm].max()) < _BURNT:
+                raise SolverError(
+                    f"the film gets hotter than {HOTTEST} K: some oil does not leave it"
+                )
+            if float(np.abs(step).max()) < _EXACT * HOTTEST:
+                break
+        else:
+            raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
+        self._shaft, self._skew = float(t[volumes.shaft]), volumes.skew(t)
+        return self._told(t, flows, sheared, pumped, residual)
+
+    # --- inside ----------------------------------------------------------------------------------
+    def _as_supplied(self) -> Array:
+        """Unknowns of a film that stands, makes no heat and passes none on."""
+        t = np.zeros(self.volumes.unknowns)
+        t[: self.volumes.count] = self.heat.inlet_temperature
+        return t
+
+    def _sources(self, t: Array, sheared: Array, pumped: Array) -> tuple[Array, csc_matrix]:
+        """Heat made in the cells, its first moment, and their changes by the unknowns."""
+        volumes, cells = self.volumes, np.arange(self.size)
+        across = self._viscosity(t[: self.size], float(t[volumes.shaft]), volumes.skew(t))
+        made = sheared * across.film.shear
+        source = np.zeros(volumes.unknowns)
+        source[: self.size] = made + pumped
+        entries = [(sheared * across.by_mean, cells, cells)]
+        if volumes.moments:
+            source[volumes.count :] = made * across.moment
+            behind = volumes.count + cells
+            entries.append((sheared * across.by_skew, cells, behind))
+            entries.append((sheared * across.by_mean * across.moment, behind, cells))
+            entries.append((sheared * across.by_skew * across.moment, behind, behind))
+        shape = (volumes.unknowns, volumes.unknowns)
+        values, rows, columns = (np.concatenate(x) for x in zip(*entries))
+        return source, sparse(values, rows, columns, shape)
+
+    def _viscosity(self, mean: Array, shaft: float, skew: Array | float) -> Across:
+        """Viscosity of the wet cells at their `mean` and `skew`, K."""
+        return self._surfaces.viscosity(self.heat, self.film.viscosity, mean, shaft, skew)
+
+    def _told(
+        self,
+        t: Array,
+        flows: Flows,
+        sheared: Array,
+        pumped: Array,
+        residual: float,
+    ) -> Warmth:
+        """The temperatures `t` by their names, and where the heat goes."""
+        heat, size, volumes = self.heat, self.size, self.volumes
+        heavy, fresh = heat.volume_heat, heat.inlet_temperature
+        surfaces, state = self._surfaces, (t[:size], float(t[volumes.shaft]), volumes.skew(t))
+        carried = np.zeros_like(flows.flow)
+        driven = flows.flow - flows.drag
+        for surface, part in ((surfaces.dragged, flows.drag), (surfaces.pressed, driven)):
+            above = np.append(t[: volumes.count] - fresh, 0.0)  # the last one is fresh oil
+            above[:size] = surface.at(*state) - fresh
+            carried += part * above[flows.source]
+        from_cell = (flows.source >= 0) & (flows.source < size)
+        leaves = from_cell & ((flows.sink == FRESH) | (flows.sink >= size))
+        given = (flows.source >= size) & (flows.sink >= 0) & (flows.sink < size)
+        out = heavy * float(carried[leaves].sum() - carried[given].sum())
+        shell, turns = surfaces.shell.at(*state), surfaces.shaft.at(*state)
+        through = volumes.area * (shell - heat.shell_temperature) * heat.shell_transfer
+        through += volumes.area * (turns - t[volumes.shaft]) * heat.shaft_transfer
+        between = [one.at(*state) for one in surfaces.between]
+        ends = from_cell & (flows.sink == FRESH)
+        side = flows.flow[ends].sum()
+        grooves = np.full((self.grooves, 2), np.nan)
+        for number in range(self.grooves):
+            comes = flows.sink == size + number
+            if flows.flow[comes].sum() > 0.0:
+                grooves[number, 0] = fresh + carried[comes].sum() / flows.flow[comes].sum()
+            if (flows.source == size + number).any():
+                grooves[number, 1] = t[size + number]
+        every = np.append(t[: volumes.count], np.nan)
+        return Warmth(
+            cells=every[self._cells],
+            shell=np.append(shell, every[size:])[self._cells],
+            hottest=float(np.max([shell, turns, *between])),
+            shaft=state[1],
+            grooves=grooves,
+            side=fresh + float(carried[ends].sum() / side) if side > 0.0 else fresh,
+            mean=float(np.average(t[:size], weights=volumes.area)),
+            friction=float((sheared * self._viscosity(*state).film.shear + pumped).sum()),
+            carried=out,
+            conducted=float(through.sum()),
+            residual=residual,
+        )
+
+
+def _solved(matrix: csc_matrix, rhs: Array) -> Array:
+    """Solution of a sparse system.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The system has none: nothing takes the heat of some cell.
+    """
+    from scipy.sparse.linalg import splu
+
+    try:
+        found = splu(matrix).solve(rhs)
+    except RuntimeError as error:
+        raise SolverError("temperatures of the film: nothing takes its heat") from error
+    if not np.isfinite(found).all():
+        raise SolverError("temperatures of the film: nothing takes its heat")
+    return np.asarray(found)

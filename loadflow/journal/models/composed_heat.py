@@ -1,0 +1,357 @@
+"""Heat over the area of a reduced film, of cells around and the points across.
+
+The energy equation is that of the grid (`loadflow.journal.film.energy_equation`) on strips around,
+one for each point across and as wide as its weight: what flows along each and over the bearing ends
+follows from the film, and what passes between them from the balance of each cell. In motion the
+temperatures are those of the mean heat of films at rest under loads of the series, as on the grid.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import SolverError, ValidityWarning
+from loadflow.journal.cavitation import FILL, LOAD, P
+from loadflow.journal.film.energy_balance import FRESH, Flows
+from loadflow.journal.film.linearised import Linear
+from loadflow.journal.film.temperatures import Temperatures, Warmth
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.heat import FilmHeat
+from loadflow.journal.line import Line
+from loadflow.journal.models._composed_gap_kernels import (
+    CUBE,
+    DRAG,
+    FACE_PLANES,
+    FLOW,
+    MEAN,
+    PLANES,
+)
+from loadflow.journal.models.composed_film import Thickness
+from loadflow.journal.models.composed_model import (
+    ComposedFilm,
+    build,
+    levels_at_rest,
+    warn_unresolved,
+)
+from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
+from loadflow.journal.rows import answered_rows, columns_of, operating_columns
+from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
+from loadflow.journal.solvers.warm_mean import MeanHeat, series_loads, warn_left_out
+from loadflow.numerics.convergence import Limits
+
+Array = NDArray[np.float64]
+
+
+class Made(NamedTuple):
+    """What one film carries, and the heat it makes: arguments of `Temperatures.balanced`."""
+
+    flows: Flows
+    gaps: Array
+    sheared: Array
+    pumped: Array
+
+
+class StripFilm(Temperatures):
+    """Energy equation of the strips of a reduced film, from lower to higher z.
+
+    Parameters
+    ----------
+    model : ComposedFilm
+        The film, with the points across of its level.
+    heat : FilmHeat
+        Oil and cooling.
+    """
+
+    def __init__(self, model: ComposedFilm, heat: FilmHeat) -> None:
+        units, nodes = model.units, model.film.nodes
+        self.mirrored = not model.whole
+        self._share = 0.5 if model.whole else 1.0  # the units are those of half of the width
+        self._order = np.argsort(nodes.z)
+        area = self._share * units.mirrors * units.radius**2
+        areas = area * np.outer(model.film.ring.width, nodes.weights[self._order])
+        super().__init__(units, heat, areas, np.full(areas.shape, -1, dtype=np.int64), 0)
+        self.z = nodes.z[self._order]
+        self.thicken(self.state(None))
+
+    def thicken(self, state: Array) -> None:
+        """Have the viscosity of the temperatures `state`, over that of the film."""
+        viscosity = np.asarray(self.heat.liquid.viscosity(self.cells_of(state)))
+        self.viscosity = Thickness(self.z, viscosity / self.film.viscosity)
+
+    def made(self, model: ComposedFilm, speed: float, rubbed: float) -> Made:
+        """What the film last solved carries and makes; its asperities make the heat `rubbed`, W."""
+        film, work, units = model.film, model.work, self.film
+        ring, nodes, order = film.ring, film.nodes, self._order
+        points, inner = nodes.slopes.shape
+        p, fill = (work.state[row, :, :inner] for row in (P, FILL))
+        wedge, weights = 0.5 * ring.slope * speed, nodes.weights
+        upstream = fill if wedge > 0.0 else np.roll(fill, -1, axis=0)
+        dragged = wedge * ring.edge_fill * work.face[FACE_PLANES, :, :points]  # that of the ends
+        dragged[:, :inner] = wedge * upstream * work.face[DRAG, :, :inner]
+        dragged *= weights
+        conducts = np.zeros_like(dragged)
+        conducts[:, :inner] = work.face[FLOW, :, :inner] / ring.apart[:, None] * weights[:inner]
+        rise, lost = np.zeros_like(dragged), np.zeros_like(dragged)
+        rise[:, :inner] = np.roll(p, -1, axis=0) - p
+        load = work.state[LOAD, :, :inner]
+        lost[:, :inner] = (np.roll(load, -1, axis=0) - load) ** 2
+        along = conducts * lost
+        crossing = work.slope[:, :points] * work.gap[CUBE, :, :points] * weights
+        crossing *= ring.width[:, None]
+        carries = np.ones_like(dragged)  # a pressure that is cut off dissipates nothing
+        carries[:, :inner] = p >= load
+        across = crossing * work.slope[:, :points] * carries
+        around = dragged - conducts * rise
+        first = np.zeros(self.shape[0])
+        if model.whole:  # over the lower end leaves what reaches its strip, but for what that drags
+            drags = around[:, inner] - np.roll(around[:, inner], 1)
+            first = drags + crossing @ nodes.end_slopes[:, 0]
+        unit = self._share * units.pockets.flow_unit
+        clearance = units.relative_clearance * units.radius
+        drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
+        pumped = unit * (across + 0.5 * (along + np.roll(along, 1, axis=0)))
+        pumped += self._rubbed(model, rubbed)
+        return Made(
+            self._between(unit * around[:, order], unit * dragged[:, order], unit * first),
+            clearance * work.gap[MEAN, :, order].T.ravel(),
+            (drag * speed**2 * work.sheared[:, order]).ravel(),
+            pumped[:, order].ravel(),
+        )
+
+    def of(self, films: Sequence[Made], guess: Array) -> Warmth:
+        """Temperatures in balance with the mean of the heat that `films` make and carry."""
+        gaps, sheared, pumped = (
+            np.mean(parts, axis=0)
+            for parts in zip(*((one.gaps, one.sheared, one.pumped) for one in films))
+        )
+        return self.balanced(Flows.mean([one.flows for one in films]), gaps, sheared, pumped, guess)
+
+    # --- inside ----------------------------------------------------------------------------------
+    def _between(self, around: Array, dragged: Array, first: Array) -> Flows:
+        """Flows along the strips and between them, of which `first` comes over the lower end."""
+        cells = np.arange(self.size).reshape(self.shape)
+        fresh = np.full((self.shape[0], 1), FRESH)
+        gained = np.roll(around, 1, axis=0) - around  # what each passes on to the next strip
+        passed = np.cumsum(np.column_stack([first, gained]), axis=1)
+        low = np.append(cells, np.hstack([fresh, cells]))
+        high = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
+        flow, drag = np.append(around, passed), np.append(dragged, np.zeros(passed.size))
+        some = flow != 0.0
+        low, high, flow, drag = low[some], high[some], flow[some], drag[some]
+        on = flow > 0.0
+        way = np.where(on, 1.0, -1.0)
+        return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
+
+    def _rubbed(self, model: ComposedFilm, rubbed: float) -> Array | float:
+        """Heat of the asperities at the points, W, shared out as they are pressed there."""
+        if rubbed == 0.0:
+            return 0.0
+        contact, nodes = model.options.contact, model.film.nodes
+        assert contact is not None
+        gaps = model.work.gap[PLANES, :, : nodes.z.size] * model.bearing.clearance
+        pressed = np.asarray(contact.asperities.pressure(gaps)) * nodes.weights
+        pressed *= model.film.ring.width[:, None]
+        if not pressed.any():  # they touch between the cells
+            pressed.flat[gaps.argmin()] = 1.0
+        return np.asarray(rubbed * pressed / pressed.sum())
+
+
+class _Around:
+    """Loads on a reduced film with heat, and the films at the temperatures last tried."""
+
+    def __init__(
+        self,
+        bearing: JournalGeometry,
+        options: Film,
+        force: Array,
+        speed: Array,
+        line: Line,
+        limits: Limits,
+    ) -> None:
+        # what the cells do not resolve is told, not solved on others
+        self.options = replace(options.isothermal(), grading="uniform")
+        self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
+        self.limits = replace(limits, strict=False)
+        # on the fewest points the strips mix so much that friction is 1 % larger
+        self.levels = levels_at_rest(self.options)[1:]
+        self.heat, self.equations = cast("FilmHeat", options.heat), dict[int, StripFilm]()
+
+    def equation(self, level: int) -> StripFilm:
+        """Energy equation on the points across of a level."""
+        if level not in self.equations:
+            given = self.bearing, self.options, self.speed, self.line, level
+            self.equations[level] = StripFilm(build(*given, at_rest=True), self.heat)
+        return self.equations[level]
+
+    def film(self, n: int, level: int) -> tuple[RestingFilms, Made | None]:
+        """Film of load `n` on the points of a level, and what it makes; None: there is none."""
+        one, equation = np.array([n]), self.equation(level)
+        films = films_at_rest(
+            self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
+            self.limits, level, viscosity=equation.viscosity,
+        )  # fmt: skip
+        if not films.found[0]:
+            return films, None
+        rubbed = float(films.answer["contact_power"][0]) if self.options.contact else 0.0
+        return films, equation.made(films.model, float(self.speed[n]), rubbed)
+
+    def solution(self, films: RestingFilms) -> Solution:
+        """One of the films as those of the grid are told."""
+        answer = films.answer
+        place = answer["eccentricity"][0] / self.bearing.clearance
+        linear = Linear(answer["force"][0], answer["stiffness"][0], answer["damping"][0], place)
+        spent, left = int(answer["iterations"][0]), float(answer["residual"][0])
+        return Solution(films.model.work.u, place, linear, bool(films.found[0]), spent, left)
+
+
+def equilibrium(
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
+) -> dict[str, Any]:
+    """Fields of `FilmHeatEquilibrium`, (n, …), with one cell across.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        If ``limits.strict``, the first load without film or temperatures.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        Cells, or polynomials, that do not resolve a film; names the first load.
+    """
+    around = _Around(bearing, options, force, speed, line, limits)
+    rows, count = [], speed.size
+    coarse, left = np.zeros(count, bool), np.zeros(count, bool)
+    last: tuple[Solution, Warmth] | None = None
+    for n in range(count):
+        equation, films, found = _at_rest(around, n, last)
+        if not found.converged and last is not None:
+            equation, films, found = _at_rest(around, n, None)
+        if not found.converged and limits.strict:
+            why = no_warmth(found) or 'no film on rung = "reduced"; "grid" may have one'
+            raise SolverError(f"load {n}: {why}")
+        rows.append(_row(around, n, equation, films, found))
+        if found.converged and found.warmth is not None:
+            first = equation is around.equation(around.levels[0])
+            last = (found.solution, found.warmth) if first else None
+            left[n] = films.left[0]
+            tilt = films.answer["tilt"][0] * bearing.radius / bearing.clearance
+            coarse[n] = not films.model.resolves(np.append(found.solution.position, tilt))
+    if left.any():
+        warn_unresolved(left, f"load {int(left.argmax())}")
+    if coarse.any():
+        warnings.warn(
+            f"the cells around do not resolve the film of {coarse.sum()} of {count} loads, first "
+            f"of number {int(coarse.argmax())}; a finer grid does",
+            ValidityWarning,
+            stacklevel=4,
+        )
+    converged = np.array([row["converged"] for row in rows])
+    return answered_rows(converged, columns_of(rows))
+
+
+def _at_rest(
+    around: _Around, n: int, last: tuple[Solution, Warmth] | None
+) -> tuple[StripFilm, RestingFilms, WarmFilm]:
+    """Film and temperatures of load `n`, on as many points across as it asks for.
+
+    Those of the `last` load are on the points of the first level.
+    """
+    kept: list[tuple[RestingFilms, Made | None]] = []
+    for level in around.levels:
+        equation = around.equation(level)
+
+        def film_of(before: Solution | None, level: int = level) -> Solution:
+            kept[:] = [around.film(n, level)]
+            return around.solution(kept[0][0])
+
+        def heat_of(film: Solution, cells: Array, own: StripFilm = equation) -> Warmth:
+            made = kept[0][1]
+            assert made is not None  # the film has converged
+            return own.of([made], cells)
+
+        found = coupled(equation, film_of, last, heat_of)
+        if not (found.converged and kept[0][0].left[0]):
+            break
+        last = None
+    return equation, kept[0][0], found
+
+
+def _row(
+    around: _Around, n: int, equation: StripFilm, films: RestingFilms, found: WarmFilm
+) -> dict[str, Any]:
+    """One row of `FilmHeatEquilibrium`, over the area on the points of the first level."""
+    bearing, heat = around.bearing, around.heat
+    mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
+    row = {name: values[0] for name, values in films.answer.items()}
+    place = row["eccentricity"] / bearing.clearance
+    load = around.force[n], float(around.speed[n])
+    operating = operating_columns(bearing, *load, heat.lubricant(mean), place)
+    kept = "shell_deformation"
+    warm = {name: value for name, value in operating.items() if name != kept}
+    said = heat_columns(equation, found)
+    first = around.equation(around.levels[0])
+    both, shown = (_full_width(one.z, one.mirrored) for one in (equation, first))
+    for name in OVER_AREA:
+        said[name] = np.stack([np.interp(shown, both, values) for values in said[name]])
+    where = {"angle": equation.film.mesh.angle, "z": shown * bearing.radius}
+    row |= warm | said | where
+    return row | {"converged": found.converged, "iterations": found.solution.iterations}
+
+
+def _full_width(z: Array, mirrored: bool) -> Array:
+    """Places across of the points `z`, and of their images."""
+    return np.append(-z[::-1], z) if mirrored else z
+
+
+def mean_around(
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
+) -> tuple[MeanHeat, Thickness]:
+    """Temperatures of a series of loads, and the viscosity of its film.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No temperatures, or none of the loads has a film at rest.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        Many of the loads have no film at rest.
+    """
+    around = _Around(bearing, options, force, speed, line, limits)
+    level = around.levels[0]
+    equation, some = around.equation(level), series_loads(speed.size)
+    made: list[Made] = []
+
+    def film_of(before: Solution | None) -> Solution:
+        made.clear()
+        spent, shown = 0, None
+        for index in some:
+            films, own = around.film(index, level)
+            solution = around.solution(films)
+            spent += solution.iterations
+            if shown is None or own is not None:
+                shown = solution
+            if own is not None:
+                made.append(own)
+        assert shown is not None  # a series has loads
+        return replace(shown, iterations=spent)
+
+    def heat_of(last: Solution, cells: Array) -> Warmth:
+        return equation.of(made, cells)
+
+    warm = coupled(equation, film_of, None, heat_of)
+    if not warm.converged or warm.warmth is None:
+        raise SolverError(f"orbit cannot start: {warm.why or 'no load has a film at rest'}")
+    warn_left_out(len(made), len(some))
+    equation.thicken(equation.state(warm.warmth))
+    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations), equation.viscosity

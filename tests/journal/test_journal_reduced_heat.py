@@ -1,0 +1,133 @@
+"""Heat over the area of a reduced film: the energy equation of its strips, beside the grid's."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.journal import (
+    Contact,
+    Film,
+    FilmHeat,
+    GasMixture,
+    JournalBearing,
+    Lobes,
+    LocalShell,
+    Lubricant,
+    RingGrowth,
+)
+from loadflow.journal.line import Line
+from loadflow.journal.models.composed_film import Thickness
+from loadflow.journal.models.composed_rest import films_at_rest
+from loadflow.numerics.convergence import Limits
+from loadflow.tribology import AsperityContact, ExponentialOil
+
+BEARING = JournalBearing(0.2, 0.15, 1e-3)
+LOAD, SPEED = np.array([4e4, 3e3]), 100.0
+HEAT = FilmHeat("iso-vg-68", shell_transfer=500.0, shell_temperature=313.15)
+ROUGH = Contact(AsperityContact(roughness=2e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
+FINE = (96, 24)
+TOLD = ("minimum_film", "maximum_pressure", "friction_power")
+
+
+def film(rung="reduced", grid=(72, 12), heat=HEAT, **more):
+    more = {"edge_pressure": 1.5e5, "grading": "uniform", "inlet": None} | more
+    return Film(None, GasMixture(5e4), grid=grid, heat=heat, rung=rung, **more)
+
+
+@pytest.mark.parametrize(
+    ("more", "line"),
+    [
+        ({}, {}),
+        ({"shell": LocalShell(1e-12)}, {}),
+        ({"contact": ROUGH}, {"tilt": (0.0, 2e-4)}),
+    ],
+)
+def test_a_film_at_rest_is_that_of_the_grid(more, line):
+    """Within what both owe to their cells; what leaves is the friction, to rounding."""
+    own = BEARING.equilibrium(LOAD, SPEED, film(**more), **line)
+    grid = BEARING.equilibrium(LOAD, SPEED, film("grid", FINE, **more), **line)
+    assert own.converged
+    assert own.heat_imbalance < 1e-8
+    left = own.heat_carried + own.heat_conducted
+    assert left == pytest.approx(float(own.friction_power), rel=1e-8)
+    for name, most in zip(TOLD, (0.02, 0.03, 0.01)):
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
+    assert own.temperature == pytest.approx(float(grid.temperature), abs=0.3)
+    assert own.maximum_temperature == pytest.approx(float(grid.maximum_temperature), abs=1.0)
+    assert own.film_temperature.shape == (own.angle.size, own.z.size)
+    assert own.moment == pytest.approx(grid.moment, rel=0.02, abs=1.0)
+
+
+def test_with_one_viscosity_it_is_the_isothermal_film():
+    even = ExponentialOil(reference_viscosity=0.03, reference_density=870.0)
+    warm = BEARING.equilibrium(LOAD, SPEED, film(heat=replace(HEAT, oil=even)))
+    cold = replace(film(), heat=None, lubricant=Lubricant(0.03))
+    cold = BEARING.equilibrium(LOAD, SPEED, replace(cold, contact=ROUGH))  # on points across
+    for name in ("minimum_film", "maximum_pressure", "stiffness", "damping"):
+        expected = getattr(cold, name)
+        scale = np.abs(expected).max()
+        np.testing.assert_allclose(getattr(warm, name), expected, rtol=3e-3, atol=3e-3 * scale)
+
+
+def test_reversed_motion_is_the_mirror_image():
+    one, other = (
+        BEARING.equilibrium(LOAD * [1, sign], sign * SPEED, film(), tilt=(0.0, 1e-4))
+        for sign in (1, -1)
+    )
+    for name in (*TOLD, "maximum_temperature", "temperature", "side_flow"):
+        assert getattr(other, name) == pytest.approx(float(getattr(one, name)), rel=1e-7)
+
+
+def test_stiffness_is_the_slope_of_the_force_at_the_viscosity_of_the_film():
+    """Of films under loads a little apart, with a viscosity that falls threefold around."""
+    around = 1.0 + 0.5 * np.cos(np.linspace(0.0, 2 * np.pi, 72, endpoint=False))
+    uneven = Thickness(np.array([0.0, 0.8]), around[:, None] * [1.0, 0.8])
+    options = replace(film(), heat=None, lubricant=Lubricant(0.03))
+    step = np.array([10.0, -20.0])
+    loads, speeds = LOAD + np.outer([0.0, 1.0, -1.0], step), np.full(3, SPEED)
+    films = films_at_rest(
+        BEARING, options, loads, speeds, Line(), Limits(1e-12, 60, True), 1, viscosity=uneven
+    )
+    _, more, less = films.answer["eccentricity"]
+    found = films.answer["stiffness"][0] @ (0.5 * (more - less))
+    np.testing.assert_allclose(found, step, rtol=1e-5)
+
+
+def test_a_path_is_that_of_the_grid_and_keeps_its_temperatures():
+    time = np.linspace(0.0, 0.1, 21)
+    loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
+    own, grid = (BEARING.orbit(time, loads, SPEED, one) for one in (film(), film("grid", FINE)))
+    assert own.attrs["heat_imbalance"] < 1e-8
+    assert own.attrs["heat_residual"] < 1e-6
+    assert np.ptp(own.temperature.values) == 0.0
+    assert float(own.temperature[0]) == pytest.approx(float(grid.temperature[0]), abs=0.3)
+    for name, most in zip(TOLD, (0.02, 0.03, 0.01)):
+        np.testing.assert_allclose(own[name], grid[name], rtol=most)
+
+
+def test_a_closed_path_with_shell_and_asperities_closes():
+    time = np.linspace(0.0, 0.1, 21)
+    loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
+    loads[-1] = loads[0]
+    options = film(contact=ROUGH, shell=LocalShell(1e-12))
+    path = BEARING.orbit(time, loads, SPEED, options, periodic=True)
+    assert path.attrs["closure"] < 1e-6
+    assert path.attrs["heat_imbalance"] < 1e-8
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"heat": replace(HEAT, points=3)}, "heat.points = 3"),
+        ({"heat": replace(HEAT, growth=RingGrowth(0.3))}, "heat.growth"),
+        ({"heat": replace(HEAT, stiffness="settled")}, "heat.stiffness = 'settled'"),
+    ],
+)
+def test_what_the_strips_do_not_know_is_refused_by_name(more, words):
+    with pytest.raises(InputError, match=words):
+        BEARING.equilibrium(LOAD, SPEED, film(**more))
+    lobes = replace(BEARING, shape=Lobes(2))
+    with pytest.raises(InputError, match="a whole bore"):
+        lobes.equilibrium(LOAD, SPEED, film())
