@@ -93,7 +93,7 @@ def name(grid: tuple[int, int]) -> str:
 def fields(scene: Scene, case: Case) -> Iterator[tuple[str, Field]]:
     """Yield the turbulence of a case on every grid, made once on the finest one."""
     fine = turbulence(scene, case, FINEST, "fast")
-    hub, mean = (_everywhere(fine, weights) for weights in (None, fine.radius))
+    hub, mean = (everywhere(fine, weights) for weights in (None, fine.radius))
     yield from zip(WHOLE, (hub, mean))
     for grid in GRIDS:
         yield name(grid), thinned(fine, grid)
@@ -120,7 +120,7 @@ def thinned(field: Field, grid: tuple[int, int]) -> Field:
     return replace(field, radius=field.radius[::along], angle=field.angle[::around], **parts)
 
 
-def _everywhere(field: Field, weights: np.ndarray | None) -> Field:
+def everywhere(field: Field, weights: np.ndarray | None) -> Field:
     """One wind all over the rotor: that of the hub, or the mean with `weights` of the radii."""
     radius, angle = field.radius[[0, -1]], 2 * np.pi / 3 * np.arange(3)
     parts = {}
