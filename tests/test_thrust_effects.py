@@ -1,10 +1,7 @@
 """What films of thrust collars leave out is counted, by closed forms that solved films bear out."""
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
-from scipy.optimize import brentq
 
 from loadflow.data import gains
 from loadflow.journal import Heat
@@ -13,9 +10,7 @@ from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.stages.effects import thrust
 from loadflow.stages.effects.film import THREE_P
-from loadflow.stages.effects.film_heat import HEAT_CAPACITY
 from loadflow.stages.effects.situation import FEW, situation
-from loadflow.tribology import lubricant
 
 COLLAR = {
     "kind": "thrust", "play": 6e-4,
@@ -52,19 +47,10 @@ def loaded(at):
 
 
 def test_heat_changes_the_film_as_the_balance_of_its_pads_does(at, loaded):
-    collar, force, speed, cold = loaded
-    steepness, warmer = float(lubricant("mineral-vg-320").steepness(Heat().inlet_temperature)), 0.0
-    for _ in range(20):  # halves its error in every turn
-        thin = replace(
-            collar.lubricant, viscosity=collar.lubricant.viscosity * np.exp(-steepness * warmer)
-        )
-        found = collar.model_copy(update={"lubricant": thin}).solve(
-            np.array([0.0, 0.0, force]), np.zeros(3), speed
-        )
-        row = found.front
-        rise = row.friction_power / (collar.lubricant.density * HEAT_CAPACITY * row.flow)
-        kept = thrust.CARRY_OVER * (1.0 - row.side_flow.sum() / row.flow)
-        warmer = 0.5 * (warmer + rise * (kept / (1.0 - kept) + 0.5))
+    _, force, speed, cold = loaded
+    warm = thrust.HEAT.switched(at.scene, True).thrust.collars["N2"].on_cells(FEW)
+    found = warm.solve(np.array([0.0, 0.0, force]), np.zeros(3), speed)
+    assert found.front.temperature > Heat().inlet_temperature + 3.0
     sizes = thrust.HEAT.indicator(at)
     thinner = 1.0 - found.minimum_film / cold.minimum_film
     assert thinner > 0.05
@@ -72,23 +58,16 @@ def test_heat_changes_the_film_as_the_balance_of_its_pads_does(at, loaded):
     more = found.maximum_pressure / cold.maximum_pressure - 1.0
     assert sizes["maximum pressure"] == pytest.approx(more, rel=0.35)  # calibrated on another one
     less = 1.0 - found.friction_power / cold.friction_power
-    assert sizes["friction power"] == pytest.approx(less, rel=0.15)
+    # the row that is not pressed stays cooler than the indicator has it
+    assert less < sizes["friction power"] == pytest.approx(less, rel=0.25)
 
 
 def test_tilt_changes_the_film_as_a_held_slope_does(at, loaded):
     collar, force, speed, aligned = loaded
-    row, film = collar.geometry, collar.film_model
     slope = float(at.bearings["N2"].slope[0])
     assert slope > 0
-    turned = np.array([slope, 0.0])
-
-    def carried(gap):
-        front = row.pressure(gap, speed, film, tilt=turned)
-        return front, front.force - row.pressure(collar.play - gap, speed, film, tilt=-turned).force
-
-    least = 1.2 * slope * row.outer_radius
-    gap = brentq(lambda g: carried(g)[1] - force, least, 0.5 * collar.play, rtol=1e-6)
-    front, _ = carried(gap)
+    tilted = collar.solve(np.array([0.0, 0.0, force]), np.zeros(3), speed, np.array([slope, 0.0]))
+    front = tilted.front
     sizes = thrust.TILT.indicator(at)
     thinner = 1.0 - front.minimum_film / aligned.minimum_film
     assert sizes["minimum film"] == pytest.approx(thinner, rel=0.1)
@@ -123,14 +102,36 @@ def test_asperities_take_a_share_of_films_as_thin_as_the_stated_roughness(at):
     assert found == pytest.approx(0.5**6.804, rel=1e-6)
 
 
-def test_a_plan_counts_what_films_of_collars_leave_out():
+def test_a_plan_takes_heat_and_tilt_where_the_accuracy_asks_for_them():
     plan = make_plan(scene_of(12.0))
+    kept = {one.name: one.kept for one in plan.effects if one.name.endswith("the collar")}
+    assert kept == {
+        "motion of the collar": False, "heat of the collar": True, "tilt of the collar": True,
+        "contact of the collar": False,
+    }  # fmt: skip
+    assert plan.errors["thrust.film"]["minimum film"] < 0.05
+    assert not any(said.startswith("thrust.film") for said in plan.shortfalls)
+    chosen = plan.scene.thrust
+    assert (chosen.rung, chosen.tilt, chosen.motion) == ("curve", True, "quasi-static")
+    entering = chosen.collars["N2"].oil
+    assert entering.viscosity == pytest.approx(0.15, rel=1e-3)
+
+
+def test_a_plan_counts_what_a_scene_does_not_want():
+    plan = make_plan(scene_of(12.0, accuracy="given"))
     sizes = {one.name: one.indicator for one in plan.effects if one.name.endswith("the collar")}
-    assert len(sizes) == 4
-    assert not any(one.kept for one in plan.effects if one.name in sizes)
     left = sum(one["minimum film"] for one in sizes.values())
     assert plan.errors["thrust.film"]["minimum film"] > left > 0.05
-    assert any(said.startswith("thrust.film: off in minimum film") for said in plan.shortfalls)
+
+
+def test_motion_is_taken_where_more_accuracy_is_asked_for():
+    plan = make_plan(scene_of(12.0, accuracy=0.005))
+    assert plan.scene.thrust.in_motion
+    standing = scene_of(12.0)
+    standing = standing.model_copy(
+        update={"loads": standing.loads.model_copy(update={"dlc": "4.2"})}
+    )
+    assert thrust.MOTION.switched(standing, True) is None
 
 
 def test_without_a_collar_there_is_nothing_to_leave_out():

@@ -110,6 +110,58 @@ def test_a_plan_takes_the_curve_and_counts_its_error(tmp_path):
     assert finer(chosen.scene, "thrust").thrust.rung == "grid"
 
 
+BENT = {"two_point": {"beam": {"sections": [{"outer_diameter": 1.4, "inner_diameter": 0.7}]}}}
+HOT = {"kind": "thrust", "geometry": LANDS, "heat": {"oil": "iso-vg-220"}, "grid": [8, 4]}
+
+
+def of_bent_shaft(cube, name, **collar):
+    return make_scene(
+        {
+            "name": name, "accuracy": "given", "loads": {"files": [str(cube)]}, "shaft": BENT,
+            "bearings": {"N2": HOT | collar}, "results": ["thrust.film"],
+            "reduction": {"size": 0.02, "classes": 3},
+        }
+    )  # fmt: skip
+
+
+def samples_of_run(done):
+    part = next((done.path / "thrust").glob("*.h5"))
+    return open_cube(part)["N2"].to_dataset().load()
+
+
+def test_a_collar_that_tilts_warms_and_moves_follows_the_whole_series(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", steps=200)
+    scene = of_bent_shaft(cube, "moving", motion="transient", tilt=True)
+    assert scene.thrust.rung == "curve"
+    assert make_scene(tomllib.loads(scene.to_toml())) == scene
+    done = run(scene, out=tmp_path / "runs", report=False)
+    samples = samples_of_run(done)
+    assert samples.sizes["sample"] == 200
+    assert samples.attrs["motion"] == "transient"
+    assert samples["converged"].all()
+    assert samples["residual"].max() < 1e-8
+    assert np.ptp(samples["temperature"].values) == 0.0
+    assert samples["temperature"][0] > 313.15 + 1.0
+    table = done.tree["thrust"].to_dataset()
+    assert samples["temperature"].values[0] in table["largest_temperature"].values
+    aligned = run(of_bent_shaft(cube, "still", rung="curve"), out=tmp_path / "runs", report=False)
+    assert (table["smallest_film"] < aligned.tree["thrust"]["smallest_film"]).all()
+
+
+def test_the_table_of_tilts_gives_a_scene_the_films_of_its_grid(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", steps=200)
+    cool = {"heat": None, "lubricant": {"viscosity": 0.2}, "tilt": True}
+    one, other = (
+        run(of_bent_shaft(cube, rung, rung=rung, **cool), out=tmp_path / "runs", report=False)
+        for rung in ("curve", "grid")
+    )
+    ours, theirs = (samples_of_run(done) for done in (one, other))
+    for name, near in (
+        ("minimum_film", 5e-3), ("maximum_pressure", 0.03), ("friction_power", 5e-3),
+    ):  # fmt: skip
+        np.testing.assert_allclose(ours[name].values, theirs[name].values, rtol=near)
+
+
 def test_every_sample_is_one_equilibrium(done):
     part = next((done.path / "thrust").glob("*.h5"))
     tree = open_cube(part)
@@ -191,8 +243,18 @@ def test_scenes_are_written_and_read_alike():
 @pytest.mark.parametrize(
     ("places", "words"),
     [
-        ({"N2": COLLAR | {"motion": "transient"}}, r"bearings\.N2: motion: films of pads"),
-        ({"N2": COLLAR | {"heat": {}}}, "heat: films of pads"),
+        ({"M": PAIR | {"motion": "transient"}}, r"bearings\.M: motion: films of pads"),
+        ({"M": PAIR | {"heat": {}}}, "heat: films of pads"),
+        ({"N2": COLLAR | {"shell": {}}}, "shell: films of pads"),
+        ({"N2": COLLAR | {"heat": {}}}, "lubricant: follows from heat.oil"),
+        (
+            {"N2": COLLAR | {"motion": "transient", "rung": "grid"}},
+            "needs a table of films; set rung",
+        ),
+        (
+            {"N2": COLLAR | {"motion": "transient", "geometry": SOFT}},
+            "no curve over the gap; set motion quasi-static",
+        ),
         ({"M": COLLAR}, "neither radial forces nor moments"),
         ({"N2": COLLAR | {"play": 1e-6}}, "twice the roughness"),
         ({"N2": [COLLAR, COLLAR]}, "a second bearing of its kind"),

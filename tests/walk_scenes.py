@@ -163,6 +163,15 @@ BASES = {
             "pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
             "taper": 1e-4}}}},
     },
+    "warm collar": {
+        "shaft": {"two_point": {"beam": {"sections": [
+            {"outer_diameter": 1.6, "inner_diameter": 0.8}]}}},
+        "results": ["thrust.film"],
+        "thrust": {"rung": "curve", "motion": "transient", "tilt": True, "grid": [8, 4],
+                   "bearings": {"N2": {"kind": "thrust", "heat": {"oil": "iso-vg-220"},
+            "geometry": {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
+                         "taper": 1e-4}}}},
+    },
     "pair of cones": {
         "shaft": {"moment": {}}, "results": ["thrust.film"],
         "reduction": {"size": 0.02, "classes": 2},
@@ -397,6 +406,7 @@ WALKED = {
     "catalogue of balls": ("rolling.catalogue",),
     "mounted rollers, loose": ("rolling", "environment"),
     "thrust collar": ("thrust",),
+    "warm collar": ("thrust.motion", "thrust.tilt", "thrust.bearings.N2.heat"),
     "pair of cones": ("thrust",),
     "three points": ("shaft",),
     "integrated": ("shaft",),
@@ -588,6 +598,8 @@ OTHERS = {
         {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.3, "pad_angle": 0.7, "taper": 1e-4}
     ],
     "thrust.bearings.N2.grid": [[16, 8]],
+    "thrust.bearings.N2.heat": [{"oil": "iso-vg-68"}],
+    "thrust.bearings.N2.heat.oil": ["iso-vg-68"],
     "thrust.bearings.M.grid": [[12, 6]],
     "thrust.bearings.N2.cavitation.kind": ["gas-mixture"],
     "thrust.bearings.M.cavitation.kind": ["gas-mixture"],

@@ -50,11 +50,11 @@ def friction_pairs() -> Rows:
 
 def bearings() -> Rows:
     """Kinds of bearing, arrangements for rolling.arrangement, sized candidates of each turbine."""
-    from loadflow.journal import JournalBearing
+    from loadflow.journal import ConicalPair, JournalBearing
     from loadflow.rolling.bearings.arrangements import ARRANGEMENTS, main_bearings
     from loadflow.scene.candidates import candidates_of, machine_names
     from loadflow.scene.places import GEOMETRIES, PLACE_KINDS
-    from loadflow.scene.thrust import ConicalPair, ThrustCollar
+    from loadflow.scene.thrust import ThrustCollar
 
     films = (JournalBearing, ThrustCollar, ConicalPair)
     known = dict(zip(PLACE_KINDS, films)) | GEOMETRIES

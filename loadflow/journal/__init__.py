@@ -3,7 +3,7 @@
 ===============  =========================================================================
 `bearing`        `JournalBearing`: what the user calls
 `film_model`     `Film`: one description of the film; `lubricant`, `cavitation`: its liquid and laws
-`thrust`         thrust bearings; `straight_pads`: rectangles; `double_thrust`: a collar between two
+`thrust`         thrust bearings; `double_thrust`: a collar between two; `collar_series`: in series
 `pad_heat`       oil of pads: `PadHeat`; `warm_pads`: their heat balance
 `cone`           conical bearings; `conical_pair`: two of them
 `pad_bearing`    what these share; `pads`: rows of pads and their supports

@@ -57,7 +57,6 @@ from .shells import LinedShell as LinedShell
 from .shells import LocalShell as LocalShell
 from .shells import MatrixShell as MatrixShell
 from .shells import ThickShell as ThickShell
-from .straight_pads import RectangularThrustBearing as RectangularThrustBearing
 from .stribeck import stribeck as stribeck
 from .supply import Capillary as Capillary
 from .supply import ConstantFlow as ConstantFlow
@@ -68,6 +67,7 @@ from .supply import Supply as Supply
 from .surfaces import Flat as Flat
 from .surfaces import Step as Step
 from .surfaces import Taper as Taper
+from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
 from .turbulence import Turbulence as Turbulence
 from .warm_pads import WarmThrustResult as WarmThrustResult

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, ClassVar, Unpack
+from typing import TYPE_CHECKING, Any, ClassVar, Unpack, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -26,10 +26,20 @@ from loadflow.journal.pad_results import (
 )
 from loadflow.journal.pads import finite
 from loadflow.journal.thrust import ThrustBearing
+from loadflow.journal.warm_pads import (
+    TRIES,
+    at_temperature,
+    check_balance,
+    is_settled,
+    next_temperature,
+    warmed,
+)
 from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from loadflow.journal.pad_heat import PadHeat
 
 Array = NDArray[np.float64]
 
@@ -98,6 +108,12 @@ class DoubleThrustResult(Shows):
     iterations: int
 
     _table: ClassVar[Table] = _BOTH
+
+    @property
+    def temperature(self) -> float:
+        """Of the films of the warmer row, K; NaN without heat."""
+        rows = self.front, self.back
+        return max(getattr(row, "temperature", math.nan) for row in rows)
 
     @property
     def grid_error(self) -> PadError:
@@ -181,9 +197,14 @@ class DoubleThrustBearing:
         """
         film, control = asked(film, more, control, keywords, knows_heat=True)
         require(0 < gap < self.play, "gap", gap, f"m, between 0 and the play of {self.play:g}")
-        turned = finite("tilt", tilt, 2)
-        front = self.front.pressure(gap, speed, film, tilt=turned, control=control)
-        back = self.back.pressure(self.play - gap, speed, film, tilt=-turned, control=control)
+        return self._held(gap, speed, (film, film), finite("tilt", tilt, 2), control)
+
+    def _held(
+        self, gap: float, speed: float, films: tuple[Film, Film], tilt: Array, control: Control
+    ) -> DoubleThrustResult:
+        """Both rows, each with its own film, at a gap of the front one."""
+        front = self.front.pressure(gap, speed, films[0], tilt=tilt, control=control)
+        back = self.back.pressure(self.play - gap, speed, films[1], tilt=-tilt, control=control)
         return DoubleThrustResult(
             front=front,
             back=back,
@@ -238,16 +259,51 @@ class DoubleThrustBearing:
         """
         film, control = asked(film, more, control, keywords, knows_heat=True)
         force, speed = finite("force", force), finite("speed", speed)
-        limits, turned = limits_of(control), finite("tilt", tilt, 2)
-        head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
+        turned, head = finite("tilt", tilt, 2), f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         if speed == 0.0:
             raise SolverError(f"{head}: {AT_REST}")
+        if film.heat is None:
+            return self._carrying(head, force, speed, (film, film), turned, control)
+        heat, warm = cast("PadHeat", film.heat), [film.heat.inlet_temperature] * 2
+        near, steps, tries = None, 0, 0
+        for _ in range(TRIES):
+            own = at_temperature(film, warm[0]), at_temperature(film, warm[1])
+            near = found = self._carrying(head, force, speed, own, turned, control, near)
+            steps, tries = steps + found.iterations, tries + 1
+            rows = [warmed(row, heat, at) for row, at in zip((found.front, found.back), warm)]
+            if all(map(is_settled, rows)):
+                break
+            warm = [next_temperature(row, heat) for row in rows]
+        for row in rows if control.strict else ():
+            check_balance(row)
+        front, back = (replace(row, heat_iterations=tries) for row in rows)
+        known = found.converged and front.converged and back.converged
+        return replace(found, front=front, back=back, converged=known, iterations=steps)
+
+    def _carrying(
+        self,
+        head: str,
+        force: float,
+        speed: float,
+        films: tuple[Film, Film],
+        turned: Array,
+        control: Control,
+        near: DoubleThrustResult | None = None,
+    ) -> DoubleThrustResult:
+        """Place at which isothermal films, one of each row, carry a force; from one that is near.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            There is none.
+        """
+        limits = limits_of(control)
         pressed = 1.0 if force >= 0 else -1.0
 
         def at(inverse: float) -> DoubleThrustResult:
             film_there = 1.0 / math.sqrt(inverse)
             gap = film_there if pressed > 0 else self.play - film_there
-            return self.pressure(gap, speed, film, tilt=turned, control=control)
+            return self._held(gap, speed, films, turned, control)
 
         def answer(found: DoubleThrustResult, error: float, converged: bool) -> DoubleThrustResult:
             residual = max(error, found.residual)
@@ -259,6 +315,8 @@ class DoubleThrustBearing:
             raise SolverError(f"{head}: the play of {self.play:g} m has no room for the tilt")
         low, high = (1.0 / (self.play - ends[1])) ** 2, (1.0 / ends[0]) ** 2
         x, spent = (2.0 / self.play) ** 2, 0
+        if near is not None:
+            x = (1.0 / (near.gap if pressed > 0 else self.play - near.gap)) ** 2
         if not low < x < high:
             x = math.sqrt(low * high)
         for _ in range(_ROUNDS):

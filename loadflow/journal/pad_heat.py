@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
@@ -58,6 +58,10 @@ class PadHeat(Entering):
     def volume_heat(self) -> float:
         """ρ c_p of the oil as it enters, J/(m³ K)."""
         return float(self.liquid.density(self.inlet_temperature)) * self.heat_capacity
+
+    def scaled(self, factor: float) -> PadHeat:
+        """The same with an oil so many times as thick."""
+        return replace(self, oil=self.liquid.scaled(factor))
 
     def warming(self, friction_power: ArrayLike, flow: ArrayLike) -> Array:
         """D, K: by how much friction (W) warms what flows through a pad, m³/s of all pads."""

@@ -87,38 +87,69 @@ def balanced(
     heat = cast("PadHeat", film.heat)
     warm, steps = heat.inlet_temperature, 0
     for tries in range(1, TRIES + 1):
-        oil = heat.lubricant(warm)
         try:
-            found = solve(replace(film, lubricant=oil, heat=None))
+            cool = solve(at_temperature(film, warm))
         except SolverError as error:
             if tries == 1:
                 raise
             raise SolverError(
                 f"{error}; at {warm:.4g} K, to which its friction warms it"
             ) from error
-        steps += found.iterations
-        flow, side = found.flow, float(np.sum(found.side_flow))
-        warming, carried = heat.warming(found.friction_power, flow), heat.carried(flow, side)
-        entering = heat.inlet_temperature + float(carried * warming)
-        left = entering + 0.5 * float(warming) - warm
-        if abs(left) <= LEFT or found.speed == 0.0:
+        steps += cool.iterations
+        found = warmed(cool, heat, warm)
+        if is_settled(found):
             break
-        if warm == HOTTEST and left > 0.0:
-            break
-        warm = float(heat.nearer(warm, warm + left))
-    balance = abs(left) <= LEFT
-    if control.strict and not balance:
-        raise SolverError(f"no heat balance below {HOTTEST} K; it is off by {left:.2g} K")
-    known = {part.name: getattr(found, part.name) for part in fields(found)} | {
-        "converged": found.converged and balance,
-        "iterations": steps,
-    }
+        warm = next_temperature(found, heat)
+    if control.strict:
+        check_balance(found)
+    return replace(found, heat_iterations=tries, iterations=steps)
+
+
+def at_temperature(film: Film, temperature: float) -> Film:
+    """The film with its oil at a temperature, K."""
+    oil = cast("PadHeat", film.heat).lubricant(temperature)
+    return replace(film, lubricant=oil, heat=None)
+
+
+def warmed(cool: ThrustResult, heat: PadHeat, temperature: float) -> WarmThrustResult:
+    """Films at a temperature, K, with what is left of their balance there."""
+    flow, side = cool.flow, float(np.sum(cool.side_flow))
+    warming = float(heat.warming(cool.friction_power, flow))
+    entering = heat.inlet_temperature + float(heat.carried(flow, side)) * warming
+    left = entering + 0.5 * warming - temperature
+    known = {part.name: getattr(cool, part.name) for part in fields(cool)}
     return WarmThrustResult(
-        **known,
-        temperature=warm,
+        **known | {"converged": cool.converged and abs(left) <= LEFT},
+        temperature=temperature,
         inlet_temperature=entering,
-        outlet_temperature=entering + float(warming),
-        viscosity=oil.viscosity,
+        outlet_temperature=entering + warming,
+        viscosity=heat.lubricant(temperature).viscosity,
         heat_residual=abs(left),
-        heat_iterations=tries,
+        heat_iterations=1,
     )
+
+
+def next_temperature(found: WarmThrustResult, heat: PadHeat) -> float:
+    """Temperature that is tried after one whose balance is not met, K."""
+    asked = 0.5 * (found.inlet_temperature + found.outlet_temperature)
+    return float(heat.nearer(found.temperature, asked))
+
+
+def is_settled(found: WarmThrustResult) -> bool:
+    """Whether the balance is met, or lies above the hottest temperature."""
+    asked = 0.5 * (found.inlet_temperature + found.outlet_temperature)
+    beyond = found.temperature == HOTTEST and asked > HOTTEST
+    return found.heat_residual <= LEFT or beyond
+
+
+def check_balance(found: WarmThrustResult) -> None:
+    """Refuse films without a balance.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        With what is left of it.
+    """
+    if found.heat_residual > LEFT:
+        left = f"it is off by {found.heat_residual:.2g} K"
+        raise SolverError(f"no heat balance below {HOTTEST} K; {left}")

@@ -33,6 +33,9 @@ GEOMETRIES = {FOUR_POINT: KINDS[_REGISTERED[FOUR_POINT]]} | KINDS
 PLACE_KINDS = (JOURNAL, *AXIAL, *(WRITTEN.get(kind, kind) for kind in KINDS))
 """What `kind` a bearing of a scene may have."""
 
+OF_COLLARS = ("rung", "grid", "motion", "tilt")
+"""Keys that all thrust collars of a scene share."""
+
 SHARED = ("motion", "step", "tilt", "rung", "grid", "grading")
 """Keys that all journal bearings of a scene share: how the film is modelled."""
 
@@ -126,7 +129,7 @@ def places_of(
             told = {"kind": WRITTEN.get(kind, kind), "geometry": geometry} | data
             found.setdefault(part["bearing"], []).append(told)
     axial = thrust or {"bearings": {}}
-    of_collars = {name: axial[name] for name in ("rung", "grid") if name in axial}
+    of_collars = {name: axial[name] for name in OF_COLLARS if name in axial}
     for place, part in axial["bearings"].items():
         more = of_collars if part["kind"] == COLLAR else {}
         found.setdefault(place, []).append({**part, **more})
@@ -181,7 +184,7 @@ def _add_axial(found: Sections, place: str, location: Location, data: dict[str, 
     told = ".".join(map(str, location))
     if place in found.thrust["bearings"]:
         raise ValueError(f"{told}: a second bearing of its kind; write it under [candidates.NAME]")
-    for name in ("rung", "grid") if data["kind"] == COLLAR else ():  # of all collars
+    for name in OF_COLLARS if data["kind"] == COLLAR else ():
         if name in data:
             value = data.pop(name)
             if found.thrust.setdefault(name, value) != value:

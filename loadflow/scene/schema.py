@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from loadflow.scene.places import COLLAR, GEOMETRIES, JOURNAL
+from loadflow.scene.axial import ConePair
+from loadflow.scene.places import COLLAR, GEOMETRIES, JOURNAL, OF_COLLARS
 from loadflow.scene.scene import Scene
-from loadflow.scene.thrust import ConePair, ThrustCollar
+from loadflow.scene.thrust import ThrustCollar
 from loadflow.scene.written import SCENE
 
 
@@ -35,7 +36,8 @@ def json_schema() -> dict[str, Any]:
     for kind, section in axial.items():
         parts[_name(kind)] = _place(parts[section], {kind: None}, drop=("kind",))
         parts[_name(kind)]["required"] = ["kind", "geometry"]
-    parts[_name(COLLAR)]["properties"]["rung"] = parts["Thrust"]["properties"]["rung"]
+    for key in OF_COLLARS:
+        parts[_name(COLLAR)]["properties"][key] = parts["Thrust"]["properties"][key]
     kinds = ["JournalPlace", *map(_name, (*rolling, *axial))]
     like = {
         "type": "object",

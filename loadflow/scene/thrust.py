@@ -2,198 +2,53 @@
 
 from __future__ import annotations
 
-import math
-from abc import abstractmethod
-from collections.abc import Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
+from typing import TYPE_CHECKING, Literal, Self
 
 import numpy as np
-from numpy.typing import NDArray
-from pydantic import (
-    BaseModel,
-    BeforeValidator,
-    Field,
-    WrapSerializer,
-    field_validator,
-    model_validator,
-)
+from pydantic import BaseModel, model_validator
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal import (
-    ConicalPair,
-    DoubleThrustBearing,
-    DoubleThrustResult,
-    Film,
-    Guembel,
-    Lubricant,
-    PairResult,
-    ThrustBearing,
-)
+from loadflow.journal import DoubleThrustBearing, DoubleThrustResult, Film, Lubricant, PadHeat
+from loadflow.journal.collar_series import CollarSeries
 from loadflow.journal.thrust_curves import CollarCurves, CollarFilms, gives_way
-from loadflow.scene.films import Law
-from loadflow.scene.limits import FilmLimits
+from loadflow.scene.axial import Array, AxialBearing, Cells, ConePair, Lands, Positive
 from loadflow.scene.section import Section, told_apart
-
-Positive = Annotated[float, Field(gt=0)]
-Cells = tuple[Annotated[int, Field(ge=8, le=320)], Annotated[int, Field(ge=4, le=160)]]
-Array = NDArray[np.float64]
-
-
-def _finite(value: Any) -> Any:
-    """Plain data without what is infinite, which is what rigid supports have by default."""
-    if isinstance(value, Mapping):
-        kept = {name: _finite(part) for name, part in value.items()}
-        return {name: part for name, part in kept.items() if part != math.inf}
-    return value
-
-
-def _both_alike(pair: Any) -> Any:
-    """A pair of which the right cone is left out: as the left one."""
-    if isinstance(pair, Mapping) and "left" in pair and "right" not in pair:
-        return {**pair, "right": pair["left"]}
-    return pair
-
-
-def _told(value: Any, handler: Any) -> Any:
-    return _finite(handler(value))
-
-
-if TYPE_CHECKING:
-    Lands = ThrustBearing
-    Cones = ConicalPair
-else:
-    Lands = Annotated[ThrustBearing, WrapSerializer(_told)]
-    Cones = Annotated[ConicalPair, BeforeValidator(_both_alike), WrapSerializer(_told)]
-
-
-UNKNOWN_TO_PADS = frozenset(
-    ("motion", "heat", "shell", "contact", "supply", "inlet", "tilt", "rung", "grading")
-)
-"""Keys of journal bearings that those of pads do not have: at rest, at one temperature, aligned."""
-
-
-class AxialBearing(Section, BaseModel):
-    """What bearings of pads share in a scene: the film, the surfaces, what they must hold.
-
-    Films of pads know one temperature, rigid pads (their supports may give way), no contact and no
-    motion: keys for these are refused. `boundary_friction` is that of surfaces that touch.
-    """
-
-    lubricant: Lubricant = Lubricant(viscosity=0.050)
-    cavitation: Law = Guembel()
-    edge_pressure: Annotated[float, Field(ge=0)] = 0.1e6
-    grid: Cells = (20, 10)
-    shaft_roughness: Positive = 1.3e-6
-    shell_roughness: Positive = 2.5e-6
-    boundary_friction: Annotated[float, Field(gt=0, le=1)] = 0.15
-    limits: FilmLimits = FilmLimits()
-
-    @model_validator(mode="before")
-    @classmethod
-    def _no_more_than_pads_know(cls, data: Any) -> Any:
-        for name in UNKNOWN_TO_PADS & {*data} if isinstance(data, dict) else ():
-            raise ValueError(f"{name}: films of pads and cones do not know it; leave it out")
-        return data
-
-    @field_validator("lubricant")
-    @classmethod
-    def _even(cls, value: Lubricant) -> Lubricant:
-        if value.pressure_coefficient > 0:
-            raise ValueError("pressure_coefficient: films of pads and cones do not know it")
-        return value
-
-    @property
-    def contact_film(self) -> float:
-        """Film, m, below which the surfaces touch: the sum of their R_z."""
-        return self.shaft_roughness + self.shell_roughness
-
-    @property
-    def least_film(self) -> float:
-        """Smallest film allowed, m."""
-        return self.limits.least_film(self.contact_film)
-
-    @property
-    def film_model(self) -> Film:
-        """The film that these keys describe."""
-        return Film(
-            lubricant=self.lubricant,
-            cavitation=self.cavitation,
-            edge_pressure=self.edge_pressure,
-            inlet=None,
-            grid=self.grid,
-        )
-
-    @property
-    @abstractmethod
-    def radius(self) -> float:
-        """Mean radius of the film, m."""
-
-    @property
-    @abstractmethod
-    def clearance(self) -> float:
-        """Film, m, where the bearing is centred and its pads leave the least."""
-
-    @property
-    @abstractmethod
-    def words(self) -> str:
-        """What it is."""
-
-    @property
-    @abstractmethod
-    def measures(self) -> str:
-        """Its measures, in words."""
-
-    @abstractmethod
-    def normal_load(self, force: Array, moment: Array) -> Array:
-        """Load (n,) that presses on the films under force and moment (n, 3) of the bearing, N.
-
-        It tells which samples are the hard ones; force and moment are in the frame of the bearing,
-        whose third axis is that of the shaft.
-        """
-
-    @abstractmethod
-    def solve(self, force: Array, moment: Array, speed: float) -> DoubleThrustResult | PairResult:
-        """Equilibrium under a force (3,), N, and a moment (3,), N m, in the frame of the bearing.
-
-        Raises
-        ------
-        loadflow.errors.SolverError
-            No film carries it.
-        """
-
-    def by_curve(self, force: Array, speed: Array) -> CollarFilms | None:
-        """Films under forces (n, 3) by interpolation in a table of them; None where none is."""
-        return None
-
-    @abstractmethod
-    def with_clearance(self, change: float) -> Self:
-        """The bearing with its clearance changed by `change`, m.
-
-        Raises
-        ------
-        loadflow.errors.InputError
-            No clearance is left.
-        """
-
-    @abstractmethod
-    def touches(self, force: Array, speed: float) -> bool:
-        """Whether surfaces touch for certain under a load that no film was found to carry."""
 
 
 class ThrustCollar(AxialBearing):
     """Thrust bearing beside journal bearings: a collar between two rows of pads.
 
-    It carries the force along the shaft both ways, and neither radial forces nor moments; its films
-    are solved as if the pads stayed aligned with the collar. ``geometry`` is that of the row that
-    carries thrust downwind, ``back`` of the other one, alike if left out; ``play`` is what the
-    collar moves from one row to the other, m.
+    It carries the force along the shaft both ways, and neither radial forces nor moments.
+    ``geometry`` is that of the row that carries thrust downwind, ``back`` of the other one, alike
+    if left out; ``play`` is what the collar moves from one row to the other, m. With a table
+    ``heat`` the friction of the films warms their oil, which takes the place of ``lubricant``: each
+    row has its own temperature, at rest that of each sample, in motion one for the whole series.
     """
 
     kind: Literal["thrust"] = "thrust"
     geometry: Lands
     back: Lands | None = None
     play: Positive = 4e-4
+    heat: PadHeat | None = None
+
+    @model_validator(mode="after")
+    def _one_oil(self) -> Self:
+        if self.heat is not None and "lubricant" in self.changed:
+            raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+    @property
+    def film_model(self) -> Film:
+        """The film that these keys describe, with its heat."""
+        if self.heat is None:
+            return super().film_model
+        return replace(super().film_model, lubricant=None, heat=self.heat)
+
+    @property
+    def oil(self) -> Lubricant:
+        """The oil as it enters."""
+        return self.film_model.liquid
 
     @property
     def bearing(self) -> DoubleThrustBearing:
@@ -223,22 +78,39 @@ class ThrustCollar(AxialBearing):
         row = self.geometry
         return (
             f"d {2e3 * row.inner_radius:.0f} … D {2e3 * row.outer_radius:.0f} mm, play "
-            f"{1e6 * self.play:.0f} µm, {1e3 * self.lubricant.viscosity:.3g} mPa s"
+            f"{1e6 * self.play:.0f} µm, {1e3 * self.oil.viscosity:.3g} mPa s"
         )
 
     def normal_load(self, force: Array, moment: Array) -> Array:
         """The force along the shaft."""
         return np.abs(force[:, 2])
 
-    def solve(self, force: Array, moment: Array, speed: float) -> DoubleThrustResult:
-        """Place of the collar under the force along the shaft."""
-        return self.bearing.equilibrium(float(force[2]), speed, self.film_model)
+    def solve(
+        self, force: Array, moment: Array, speed: float, tilt: Array | None = None
+    ) -> DoubleThrustResult:
+        """Place of the collar under the force along the shaft, held at a tilt (2,) or aligned."""
+        turned = np.zeros(2) if tilt is None else tilt
+        return self.bearing.equilibrium(float(force[2]), speed, self.film_model, tilt=turned)
 
-    def by_curve(self, force: Array, speed: Array) -> CollarFilms:
-        """Places of the collar, of films tabulated down to half the sum of their R_z."""
-        return CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film).equilibrium(
-            force[:, 2], speed
-        )
+    def by_curve(
+        self, force: Array, speed: Array, tilt: Array | None = None, time: Array | None = None
+    ) -> CollarFilms:
+        """Places of the collar, of films tabulated down to half the sum of their R_z.
+
+        Tilted by (n, 2), rad, and in motion over times (n,), s, where they are given.
+        """
+        if tilt is None and time is None and self.heat is None:
+            curves = CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film)
+            return curves.equilibrium(force[:, 2], speed)
+        series = CollarSeries(self.bearing, self.film_model, self.contact_film, tilt is not None)
+        turned = np.zeros(2) if tilt is None else tilt
+        if time is None:
+            return series.equilibrium(force[:, 2], speed, turned)
+        return series.path(time, force[:, 2], speed, turned)
+
+    def cool(self) -> Self:
+        """With its oil as it enters."""
+        return self.model_copy(update={"heat": None, "lubricant": self.oil})
 
     def on_cells(self, grid: tuple[int, int]) -> Self:
         """With other cells: those of all collars, and no key of its own."""
@@ -253,6 +125,12 @@ class ThrustCollar(AxialBearing):
             raise InputError(f"play: {play:g} m is no more than the roughness")
         return self.model_copy(update={"play": play})
 
+    def with_viscosity(self, factor: float) -> Self:
+        """The collar with an oil so many times as thick, at all temperatures."""
+        if self.heat is None:
+            return super().with_viscosity(factor)
+        return self.model_copy(update={"heat": self.heat.scaled(factor)})
+
     def touches(self, force: Array, speed: float) -> bool:
         """At standstill, or where a film as thin as the roughness carries less.
 
@@ -262,7 +140,8 @@ class ThrustCollar(AxialBearing):
         if speed == 0.0:
             return True
         try:
-            carried = row.pressure(self.contact_film, speed, self.film_model).force
+            cold = self.film_model.isothermal()
+            carried = row.pressure(self.contact_film, speed, cold).force
         except SolverError:
             return False
         return bool(carried < abs(float(force[2])))
@@ -273,72 +152,6 @@ class ThrustCollar(AxialBearing):
         if self.play <= least:
             raise ValueError(f"play = {self.play:g}: must be > {least:g} m, twice the roughness")
         return self
-
-
-class ConePair(AxialBearing):
-    """Two cones against each other, which locate the shaft: forces and moments.
-
-    The cone ``geometry.left`` is upwind; ``geometry.right`` is like it if left out.
-    """
-
-    kind: Literal["conical-pair"] = "conical-pair"
-    geometry: Cones
-
-    @property
-    def radius(self) -> float:
-        """Mean radius of the left cone, m."""
-        cone = self.geometry.left
-        return 0.5 * sum(cone.slant) * math.sin(cone.half_angle)
-
-    @property
-    def clearance(self) -> float:
-        """Normal to the cones, m."""
-        pair = self.geometry
-        return pair.left.clearance if pair.clearance is None else pair.clearance
-
-    @property
-    def words(self) -> str:
-        """What it is."""
-        pads = self.geometry.left.pads
-        rows = "whole rings" if pads is None else f"{pads} segments each"
-        return f"pair of cones in {self.geometry.arrangement}, {rows}"
-
-    @property
-    def measures(self) -> str:
-        """Its measures, in words."""
-        cone, pair = self.geometry.left, self.geometry
-        return (
-            f"mean D {2e3 * self.radius:.0f} mm, B {1e3 * (cone.slant[1] - cone.slant[0]):.0f} mm "
-            f"along the cone, {math.degrees(cone.half_angle):.0f}°, {1e3 * pair.distance:.0f} mm "
-            f"apart, clearance {1e6 * self.clearance:.0f} µm, "
-            f"{1e3 * self.lubricant.viscosity:.3g} mPa s"
-        )
-
-    def normal_load(self, force: Array, moment: Array) -> Array:
-        """Load normal to the film of the harder pressed cone, if each took its part alone."""
-        angle, pair = self.geometry.left.half_angle, self.geometry
-        across = np.hypot(force[:, 0], force[:, 1])
-        turning = np.hypot(moment[:, 0], moment[:, 1])
-        radial = 0.5 * across + turning / pair.distance
-        return np.asarray(radial / math.cos(angle) + np.abs(force[:, 2]) / math.sin(angle))
-
-    def solve(self, force: Array, moment: Array, speed: float) -> PairResult:
-        """Place and tilt of the shaft."""
-        return self.geometry.equilibrium(force, moment[:2], speed, self.film_model)
-
-    def with_clearance(self, change: float) -> Self:
-        """With another clearance normal to the cones, centred."""
-        pair = self.geometry
-        if pair.clearance is not None:
-            other = replace(pair, clearance=pair.clearance + change)
-        else:
-            cones = [replace(c, clearance=c.clearance + change) for c in (pair.left, pair.right)]
-            other = replace(pair, left=cones[0], right=cones[1])
-        return self.model_copy(update={"geometry": other})
-
-    def touches(self, force: Array, speed: float) -> bool:
-        """At standstill; while turning the cones may carry, whatever the solver found."""
-        return speed == 0.0
 
 
 if TYPE_CHECKING:
@@ -352,7 +165,9 @@ class Thrust(Section, BaseModel):
 
     ``rung`` is how films of thrust collars are solved: each sample on the grid, or by a curve over
     the gap that is tabulated once (docs/thrust.md). ``grid`` counts the cells of each of their
-    pads, along the motion and across; written at a collar it is that of all of them.
+    pads, along the motion and across. With ``tilt`` the shaft is tilted in them as the beam of its
+    suspension is; with ``motion = "transient"`` the collar follows the whole series along its axis,
+    which only a curve knows. Written at a collar these are those of all of them.
 
     Examples
     --------
@@ -370,6 +185,21 @@ class Thrust(Section, BaseModel):
     bearings: dict[str, AnyAxial] = {}
     rung: Literal["grid", "curve"] = "grid"
     grid: Cells = (20, 10)
+    motion: Literal["quasi-static", "transient"] = "quasi-static"
+    tilt: bool = False
+
+    @property
+    def in_motion(self) -> bool:
+        """Whether the collars follow the whole series; they do not read a reduced one then."""
+        return self.motion == "transient" and bool(self.collars)
+
+    @model_validator(mode="after")
+    def _motion_needs_a_curve(self) -> Self:
+        if self.motion == "transient" and self.rung == "grid":
+            if "rung" in self.model_fields_set:
+                raise ValueError('motion = "transient" needs a table of films; set rung = "curve"')
+            object.__setattr__(self, "rung", "curve")
+        return self
 
     @model_validator(mode="after")
     def _collars_on_it(self) -> Self:
@@ -392,9 +222,9 @@ class Thrust(Section, BaseModel):
     def _curves_need_rigid_pads(self) -> Self:
         for place, one in self.collars.items() if self.rung == "curve" else ():
             if any(map(gives_way, (one.geometry, one.back or one.geometry))):
+                known = 'rung = "grid"' if self.motion != "transient" else "motion quasi-static"
                 raise ValueError(
-                    f"bearings.{place}: pads on springs have no curve over the gap; set "
-                    'rung = "grid"'
+                    f"bearings.{place}: pads on springs have no curve over the gap; set {known}"
                 )
         return self
 

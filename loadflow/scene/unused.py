@@ -12,7 +12,7 @@ from loadflow.rolling.friction import Churning
 from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
-from loadflow.scene.places import SHARED
+from loadflow.scene.places import OF_COLLARS, SHARED
 from loadflow.scene.results import USUAL
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section, idle_keys
@@ -353,9 +353,15 @@ def _starts(dlc: str) -> bool:
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     simulated = scene.loads.source == "simulate"
     starts = any(map(_starts, scene.loads.dlcs))
-    for name in ("rung", "grid") if not scene.thrust.collars else ():
+    for name in OF_COLLARS if not scene.thrust.collars else ():
         if name in scene.thrust.changed:
             yield f"thrust.{name}", "no bearing of this scene is a thrust collar"
+    if (
+        scene.thrust.tilt
+        and scene.thrust.collars
+        and not any(map(scene.shaft.bends_at, scene.thrust.collars))
+    ):
+        yield "thrust.tilt", "no shaft with a thrust collar is a beam"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"
@@ -370,7 +376,7 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
                 yield where, f"geometry.profile {against}, and touch under all thrust downwind"
             elif simulated and cut[key]:
                 yield f"{where}.profile", f"it {against}"
-            if row.first_pad:
+            if row.first_pad and not scene.thrust.tilt:
                 yield f"{where}.first_pad", "the collar stays aligned, so that all pads carry alike"
 
 

@@ -29,7 +29,7 @@ from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.statistics import SLOPE
-from loadflow.stages.thrust import samples_of, solved
+from loadflow.stages.thrust import finer_grid, follows, samples_of, solved, tabulated
 from loadflow.stages.turning import is_parked, turning
 
 Parts = Mapping[str, Any]
@@ -316,8 +316,12 @@ def _contacts(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
 
 
 def _collars(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    """Films of a few samples of each collar, on the grid, where they are those of a curve."""
-    if scene.thrust.rung != "curve":
+    """Films of a few samples of each collar, on the grid, where they are those of a curve.
+
+    Those of a table of tilts, of temperatures or of a path are held against a finer one.
+    """
+    cells = finer_grid(scene)
+    if scene.thrust.rung != "curve" or (tabulated(scene) and cells is None):
         return
     for place, bearing in scene.thrust.collars.items():
         film = parts["thrust"][place].to_dataset().load()
@@ -325,10 +329,16 @@ def _collars(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
             continue
         some = _spread(film["minimum_film"].values)
         ours = {name: film[name].values[some] for name in ("minimum_film", "maximum_pressure")}
-        samples = samples_of(scene, case, bearing, place, parts).isel(sample=some)
-        found = solved(bearing, place, samples)
+        samples = samples_of(scene, case, bearing, place, parts)
+        if tabulated(scene) and cells is not None:
+            finer, moving = bearing.on_cells(cells), follows(scene, bearing)
+            found = solved(finer, place, samples, "curve", moving).isel(sample=some)
+            against = f"the collar on {cells[0]} x {cells[1]} cells"
+        else:
+            found = solved(bearing, place, samples.isel(sample=some))
+            against = "the collar on the grid"
         theirs = {name: found[name].values for name in ours}
-        where, against = f"{case.name}, {place}", "the collar on the grid"
+        where = f"{case.name}, {place}"
         yield from _rows("thrust", "thrust.film", where, against, ours, theirs)
 
 

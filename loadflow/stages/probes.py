@@ -32,7 +32,7 @@ from loadflow.stages.loads import hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
-from loadflow.stages.thrust import samples_of, solved
+from loadflow.stages.thrust import follows, samples_of, solved
 from loadflow.stages.turning import SLOWEST, is_parked, turning
 
 Floats = NDArray[np.float64]
@@ -229,7 +229,10 @@ def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers
 
 
 def _of_collars(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
-    """Extremes and mean friction of a few samples of each bearing of pads, the hardest included."""
+    """Extremes and mean friction of each bearing of pads: of all that a curve gives at once.
+
+    Of others a few are solved, the hardest included.
+    """
     found: Answers = {}
     for place, bearing in scene.thrust.bearings.items():
         samples = samples_of(scene, case, bearing, place, inputs)
@@ -239,11 +242,14 @@ def _of_collars(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
         )
         order = np.argsort(bearing.normal_load(force, moment), kind="stable")
         places = np.unique(order[np.linspace(0, order.size - 1, CONTACTS).round().astype(int)])
-        film = solved(bearing, place, samples.isel(sample=places), scene.thrust.rung)
+        if scene.thrust.rung != "curve" or bearing.kind != "thrust":
+            samples = samples.isel(sample=places)
+        film = solved(bearing, place, samples, scene.thrust.rung, follows(scene, bearing))
+        weight = film["weight"]
         found |= {
             (place, "minimum film"): float(np.nanmin(film["minimum_film"])),
             (place, "maximum pressure"): float(np.nanmax(film["maximum_pressure"])),
-            (place, "friction power"): float(np.nanmean(film["friction_power"])),
+            (place, "friction power"): float(film["friction_power"].weighted(weight).mean()),
         }
     return found
 

@@ -1,4 +1,4 @@
-"""Loads of one case → films of thrust bearings and pairs of cones, at static equilibrium."""
+"""Loads of one case → films of thrust bearings and of pairs of cones, at rest or in motion."""
 
 from __future__ import annotations
 
@@ -36,6 +36,9 @@ KEPT = table(
 )
 """What is kept of every sample: units and meaning."""
 
+WARM = table("temperature")
+"""What is kept too of collars with heat: that of the warmer row."""
+
 _LOADS = {
     "load": ("N", "load that presses on the films"),
     "axial_load": ("N", "force along the shaft, its size"),
@@ -48,8 +51,9 @@ _LOADS = {
 def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     """Solve the films of every bearing for some samples of the series; one group per bearing.
 
-    Samples are chosen by the histogram of speed and of the load that presses on the films, where
-    the scene's reduction is by histogram, else they are those of the reduction.
+    Collars in motion follow the whole series. Of the others samples are chosen by the histogram of
+    speed and of the load that presses on the films, where the scene's reduction is by histogram,
+    else they are those of the reduction.
 
     Raises
     ------
@@ -59,8 +63,15 @@ def films(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
     found = {}
     for place, bearing in scene.thrust.bearings.items():
         samples = samples_of(scene, case, bearing, place, inputs)
-        found[place] = with_running(scene, solved(bearing, place, samples, scene.thrust.rung))
+        moving = follows(scene, bearing)
+        answer = solved(bearing, place, samples, scene.thrust.rung, moving)
+        found[place] = with_running(scene, answer)
     return xr.DataTree.from_dict(found)
+
+
+def follows(scene: Scene, bearing: AnyAxial) -> bool:
+    """Whether a bearing is followed through the whole series."""
+    return scene.thrust.in_motion and bearing.kind == "thrust"
 
 
 def samples_of(
@@ -68,12 +79,18 @@ def samples_of(
 ) -> xr.Dataset:
     """Samples of one case: `time`, `speed`, `weight` (sample), `force` and `moment` (sample, axis).
 
-    Force and moment are in the frame of the cube.
+    Vectors are in the frame of the cube; `tilt` (sample, axis) is there where it acts on the films.
     """
-    if scene.reduction.method != "histogram":
+    tilts = scene.thrust.tilt and bearing.kind == "thrust"
+    moving = follows(scene, bearing)
+    if scene.reduction.method != "histogram" and not moving:
         reduced: xr.Dataset = inputs["reduction"][place].to_dataset()
-        return reduced[["time", "speed", "weight", "force", "moment"]]
+        names = ("tilt",) if tilts and "tilt" in reduced else ()
+        return reduced[["time", "speed", "weight", "force", "moment", *names]]
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load().sel(bearing=place)
+    lies = tilts and "tilt" in shaft and bool(shaft["tilt"].notnull().all())
+    if moving:
+        return _whole(loads, shaft, lies)
     force, moment = _vectors(shaft)
     kept = kept_samples(
         scene,
@@ -84,7 +101,7 @@ def samples_of(
         f"{case.name}, bearing {place}",
     )
     axes = ("sample", "axis")
-    return xr.Dataset(
+    found = xr.Dataset(
         {
             "time": ("sample", kept.time, label("s", "time")),
             "speed": ("sample", kept.speed, label("rad/s", "rotor speed")),
@@ -94,6 +111,23 @@ def samples_of(
         },
         {"axis": ["x", "y", "z"]},
     )
+    if not lies:
+        return found
+    return found.assign(tilt=(axes, _tilt(shaft)[kept.index], label("rad", "tilt of the shaft")))
+
+
+def _whole(loads: xr.Dataset, shaft: xr.Dataset, lies: bool) -> xr.Dataset:
+    """The whole series as samples, one for each step."""
+    names = ("force", "moment", *(("tilt",) if lies else ()))
+    series = xr.merge([loads[["speed"]], shaft[[*names]]], compat="override", join="override")
+    weight = np.ones(series.sizes["time"])
+    found = series.assign(weight=("time", weight, label("1", "samples"))).rename(time="sample")
+    time = loads["time"].values.astype(float)
+    return found.drop_vars("sample").assign(time=("sample", time, label("s", "time")))
+
+
+def _tilt(shaft: xr.Dataset) -> np.ndarray:
+    return shaft["tilt"].transpose("time", "axis").values.astype(float)
 
 
 def _vectors(shaft: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
@@ -118,10 +152,13 @@ def _all_pressed(scene: Scene, shaft: xr.Dataset) -> dict[str, np.ndarray]:
     }
 
 
-def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid") -> xr.Dataset:
-    """Films of one bearing under samples of loads.
+def solved(
+    bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid", moving: bool = False
+) -> xr.Dataset:
+    """Films of one bearing under samples of loads; `moving`, along all of them in their order.
 
-    By its curve, where it has one and the rung says so; what that does not answer, on the grid.
+    By its curve, where it has one and the rung says so; what that does not answer at rest, on the
+    grid.
     Where the film is thinner than both surfaces are rough they are ``in_contact``, and the sample
     has no film. A sample that the solver did not answer has none either, and ``converged`` 0.
 
@@ -135,21 +172,25 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid
         for name in ("force", "moment")
     )
     speed = samples["speed"].values.astype(float)
-    found = {name: np.full(speed.size, np.nan) for name in (*KEPT, "friction_torque")}
+    tilt = _in_frame(samples)
+    kept = KEPT | (WARM if bearing.kind == "thrust" and bearing.heat is not None else {})
+    found = {name: np.full(speed.size, np.nan) for name in (*kept, "friction_torque")}
     found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
     touching, why, open_ = np.zeros(speed.size, bool), "", [*range(speed.size)]
     about: dict[str, Any] = {}
-    curve = _by_curve(bearing, force, speed) if rung == "curve" else None
+    time = samples["time"].values.astype(float) if moving else None
+    curve = _by_curve(bearing, force, speed, tilt, time) if rung == "curve" else None
     if curve is not None:
         touching = curve.touching | (curve.minimum_film < bearing.contact_film)
         there = curve.converged & ~touching
         for name, values in found.items():
             values[there] = getattr(curve, name)[there]
-        open_ = np.flatnonzero(~there & ~touching).tolist()
+        open_ = [] if moving else np.flatnonzero(~there & ~touching).tolist()
         about["interpolation_error"] = curve.interpolation_error
     for k in open_:
         try:
-            answer = bearing.solve(force[k], moment[k], float(speed[k]))
+            turned = None if tilt is None else tilt[k]
+            answer = bearing.solve(force[k], moment[k], float(speed[k]), turned)
         except SolverError as error:
             touching[k], why = bearing.touches(force[k], float(speed[k])), str(error)
             continue
@@ -168,38 +209,67 @@ def solved(bearing: AnyAxial, place: str, samples: xr.Dataset, rung: str = "grid
     }
     given = samples[["time", "speed", "weight"]]
     thickest = float(np.nanmax(found["minimum_film"], initial=0.0))
-    oil = bearing.lubricant
+    oil = bearing.oil
     fastest = float(np.abs(speed).max()) * bearing.radius
     about |= {
-        "motion": "quasi-static",
+        "motion": "transient" if moving else "quasi-static",
         "largest_reynolds_number": oil.density * fastest * thickest / oil.viscosity,
         "radius": bearing.radius,
         "boundary_friction": bearing.boundary_friction,
     }
-    return given.assign(of_samples(found, KEPT)).assign(
+    return given.assign(of_samples(found, kept)).assign(
         of_samples(loads | {"friction_torque": found["friction_torque"]}, _LOADS)
     ).assign_attrs(about)  # fmt: skip
 
 
-def _by_curve(bearing: AnyAxial, force: np.ndarray, speed: np.ndarray) -> CollarFilms | None:
-    """Films by the bearing's curve; None where it has none, as pads that find no tilt."""
+def _in_frame(samples: xr.Dataset) -> np.ndarray | None:
+    """Tilt of the shaft (n, 2), rad, in the frame of the bearing; None where it does not act."""
+    if "tilt" not in samples:
+        return None
+    tilt: np.ndarray = samples["tilt"].transpose("sample", "axis").values.astype(float)
+    return to_rolling(tilt)[:, :2]
+
+
+def _by_curve(
+    bearing: AnyAxial,
+    force: np.ndarray,
+    speed: np.ndarray,
+    tilt: np.ndarray | None,
+    time: np.ndarray | None,
+) -> CollarFilms | None:
+    """Films by the bearing's curve; None where it has none, as pads that find no tilt.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        The films of a series that is followed have no curve.
+    """
     try:
-        return bearing.by_curve(force, speed)
+        return bearing.by_curve(force, speed, tilt, time)
     except SolverError:
+        if time is not None:
+            raise
         return None
 
 
 def _links(scene: Scene) -> Links:
-    """The loads, and the films themselves."""
+    """The loads, and the films themselves; those in motion read the whole series."""
     whose = "" if len(scene.thrust.collars) == len(scene.thrust.bearings) else "cones"
-    reduced = Link("reduction", "largest load", of_load=True, gains=whose)
-    through = (*load_links("bearing load max", gains=whose), reduced)
+    largest = Link("reduction", "largest load", of_load=True, gains=whose)
+    reduced = () if scene.thrust.in_motion else (largest,)
+    through = (*load_links("bearing load max", gains=whose), *reduced)
     names = ("minimum film", "maximum pressure", "friction power")
     return {name: (*through, Link("thrust", name)) for name in names}
 
 
 GRIDS = ((20, 10), (40, 20), (80, 40))
 """Grids of a pad whose error is in the ladder."""
+
+
+def tabulated(scene: Scene) -> bool:
+    """Whether films of collars are those of a table of tilts, of temperatures or of a path."""
+    warm = any(one.heat is not None for one in scene.thrust.collars.values())
+    return scene.thrust.rung == "curve" and (warm or scene.thrust.tilt or scene.thrust.in_motion)
 
 
 def rung_key(scene: Scene) -> str:
@@ -215,11 +285,20 @@ def rung_key(scene: Scene) -> str:
 
 
 def _better(scene: Scene) -> dict[str, Any]:
-    """A curve is held against its grid, a grid against the next finer one."""
-    if scene.thrust.rung == "curve":
+    """A curve is held against its grid, a grid against the next finer one.
+
+    So is a table of films that are tilted, warm or in motion: the grid takes seconds for each.
+    """
+    if scene.thrust.rung == "curve" and not tabulated(scene):
         return {"rung": "grid"}
+    finer = finer_grid(scene)
+    return {"grid": finer} if finer and scene.thrust.collars else {}
+
+
+def finer_grid(scene: Scene) -> tuple[int, int] | None:
+    """The next of `GRIDS`; None at the top."""
     finer = [grid for grid in GRIDS if min(np.subtract(grid, scene.thrust.grid)) > 0]
-    return {"grid": finer[0]} if finer and scene.thrust.collars else {}
+    return finer[0] if finer else None
 
 
 RUNGS = Rungs(
@@ -241,16 +320,25 @@ def _left_out(scene: Scene) -> dict[str, str]:
 
 
 def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
-    return kept_share(scene, measured) * len(scene.thrust.bearings) * steps_of(cases)
+    followed = len(scene.thrust.collars) if scene.thrust.in_motion else 0
+    others = len(scene.thrust.bearings) - followed
+    return (followed + kept_share(scene, measured) * others) * steps_of(cases)
+
+
+def _needs(scene: Scene) -> tuple[str, ...]:
+    """The series where collars follow it, or choose of it by their own load; else what is kept."""
+    by_histogram = scene.reduction.method == "histogram"
+    others = len(scene.thrust.collars) < len(scene.thrust.bearings)
+    series = ("loads", "shaft") if by_histogram or scene.thrust.in_motion else ()
+    reduced = not by_histogram and (others or not scene.thrust.in_motion)
+    return (*series, *(("reduction",) if reduced else ()))
 
 
 STAGE = Stage(
     "thrust",
     run=films,
     results={"thrust.film": _links},
-    needs=lambda scene: (
-        ("loads", "shaft") if scene.reduction.method == "histogram" else ("reduction",)
-    ),
+    needs=_needs,
     sections=always("thrust", "reduction"),
     models=(RUNGS,),
     summarise=summary,

@@ -50,7 +50,7 @@ def pad_margins(bearing: AnyAxial, folder: Path, place: str, table: xr.Dataset) 
         told = f"{what} of the {bearing.kind} bearing in {place}"
         if field == "minimum_film":
             factor, thinner = film_factors(value, limit)
-            change = f"{place}: oil of {1e3 * thinner * bearing.lubricant.viscosity:.3g} mPa s"
+            change = f"{place}: oil of {1e3 * thinner * bearing.oil.viscosity:.3g} mPa s"
         else:
             factor, change = pressure_factor(value, limit), ""
         power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
@@ -85,9 +85,8 @@ def value_of(
     oil: float,
 ) -> float:
     """A value of the films with factors on load and viscosity; NaN without an answer."""
-    liquid = replace(bearing.lubricant, viscosity=oil * bearing.lubricant.viscosity)
     try:
-        thinner = bearing.model_copy(update={"lubricant": liquid})
+        thinner = bearing.with_viscosity(oil)
         return float(getattr(thinner.solve(load * force, load * moment, speed), field))
     except SolverError:
         return math.nan

@@ -75,7 +75,7 @@ def _motion(at: Situation) -> Sizes:
     return largest(found)
 
 
-def _always_turns(scene: Scene) -> bool:
+def always_turns(scene: Scene) -> bool:
     """Whether the rotor turns through all load cases; of given series that is not known."""
     if scene.loads.source == "files":
         return True
@@ -86,7 +86,7 @@ def _always_turns(scene: Scene) -> bool:
 def _may_move(scene: Scene) -> bool:
     """Whether a film may follow the shaft through all load cases: asperities carry it at rest."""
     parts = map(scene.journal.at, scene.journal.bearings)
-    return _always_turns(scene) or all(part.contact is not None for part in parts)
+    return always_turns(scene) or all(part.contact is not None for part in parts)
 
 
 MOTION = Effect(

@@ -9,14 +9,14 @@ from pydantic import ValidationError
 
 from loadflow.data import gains
 from loadflow.errors import InputError
-from loadflow.journal import FilmHeat, Growth, Heat, RingGrowth
+from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest, worst
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.stage import with_settings
-from loadflow.tribology import lubricant
+from loadflow.tribology import Oil, lubricant
 
 HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 
@@ -72,24 +72,30 @@ def _with_heat(journal: Journal, on: bool) -> Journal | None:
     if not on:
         return type(journal).model_validate(stated | {"heat": None})
     stated.pop("lubricant", None)
-    oil, cool = lubricant(MODEL_OIL), journal.lubricant
-    inlet = Heat().inlet_temperature
-    share = cool.viscosity / float(oil.viscosity(inlet))
-    thick, thin = (nu * share for nu in oil.viscosities)
     try:
-        entering = replace(
-            oil,
-            viscosities=(thick, thin),
-            density_15=cool.density * oil.density_15 / float(oil.density(inlet)),
-            name=f"{cool.viscosity:g} Pa s at {inlet:g} K",
-            source=f"thins as {MODEL_OIL}",
-        )
-        # Walther's law does not scale: meet the stated viscosity at the inlet
-        exact = cool.viscosity / float(entering.viscosity(inlet))
-        entering = replace(entering, viscosities=(thick * exact, thin * exact))
-        return type(journal).model_validate(stated | {"heat": Heat(oil=entering)})
+        heat = Heat(oil=oil_of(journal.lubricant))
+        return type(journal).model_validate(stated | {"heat": heat})
     except (InputError, ValidationError):
         return None
+
+
+def oil_of(cool: Lubricant) -> Oil:
+    """An oil that has a stated viscosity as it usually enters, and thins as `MODEL_OIL`.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A viscosity that no oil has.
+    """
+    oil, inlet = lubricant(MODEL_OIL), Heat().inlet_temperature
+    entering = replace(
+        oil.scaled(cool.viscosity / float(oil.viscosity(inlet))),
+        density_15=cool.density * oil.density_15 / float(oil.density(inlet)),
+        name=f"{cool.viscosity:g} Pa s at {inlet:g} K",
+        source=f"thins as {MODEL_OIL}",
+    )
+    # Walther's law does not scale: meet the stated viscosity at the inlet
+    return entering.scaled(cool.viscosity / float(entering.viscosity(inlet)))
 
 
 HEAT = Effect(

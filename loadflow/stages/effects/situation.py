@@ -137,7 +137,7 @@ class Situation:
         }
 
     def _collar(self, name: str, point: int) -> DoubleThrustResult | None:
-        few = self.scene.thrust.collars[name].on_cells(FEW)
+        few = self.scene.thrust.collars[name].on_cells(FEW).cool()
         load = self.bearings[name]
         force = to_rolling(load.force[point])
         force[2] += np.copysign(load.surge[point], force[2])

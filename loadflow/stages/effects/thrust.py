@@ -1,30 +1,31 @@
-"""Effects of thrust collars: what films of pads solved at rest, aligned and cool do not know.
+"""Effects of thrust collars: motion, heat, tilt, and contact, which no model of them knows.
 
-No model of them has any of it: each adds what it is worth to the error of ``thrust.film``.
 Calibrated on the collar of ``pipelines/dlc_1_1.toml`` from 4 to 24 m/s, films of 70 to 125 µm.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 
 import numpy as np
 from scipy.special import lambertw
 
 from loadflow.data import gains
-from loadflow.journal import DoubleThrustResult, Heat
+from loadflow.errors import InputError
+from loadflow.journal import DoubleThrustResult, PadHeat
 from loadflow.scene.scene import Scene
-from loadflow.scene.thrust import ThrustCollar
+from loadflow.scene.thrust import AnyAxial, ThrustCollar
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.film import ROUGHNESS, THREE_P
-from loadflow.stages.effects.film_heat import HEAT_CAPACITY, MODEL_OIL
+from loadflow.stages.effects.film import ROUGHNESS, THREE_P, always_turns
+from loadflow.stages.effects.film_heat import oil_of
 from loadflow.stages.effects.film_sizes import asperity_share
 from loadflow.stages.effects.situation import BearingLoad, Situation
-from loadflow.tribology import lubricant
+from loadflow.stages.stage import with_settings
 
-CARRY_OVER = 0.8
-"""Share of the hot oil of a pad that enters the next one; [Mitsui, Hori and Tanaka 1983]."""
+COSTS = {"tilt": {"curve": 3.1, "grid": 4.5}, "heat": {"curve": 1.0, "grid": 6.0}}
+"""Time of films with an effect over that without, by rung: of 20,000 samples on a curve, its table
+included, and of one sample on the grid; docs/thrust.md."""
 
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
@@ -50,19 +51,9 @@ def _worst(of: Of) -> Callable[[Situation], Sizes]:
     return indicator
 
 
-def _effect(name: str, of: Of, out: str, needs: str) -> Effect:
-    """An effect that is always out: scenes have no key for it."""
-    return Effect(
-        name,
-        model="thrust",
-        keys=(),
-        is_on=lambda scene: False,
-        switched=lambda scene, on: None if on else scene,
-        indicator=_worst(of),
-        out=out,
-        needs=needs,
-        concerns=_has_collars,
-    )
+def cost_of(name: str) -> Callable[[Scene], float]:
+    """Cost of one of `COSTS` on the rung of a scene."""
+    return lambda scene: COSTS[name][scene.thrust.rung]
 
 
 def _has_collars(scene: Scene) -> bool:
@@ -84,11 +75,21 @@ def _motion(
     return {name: gain[name] * change for name in _QUANTITIES}
 
 
-MOTION = _effect(
+MOTION = Effect(
     "motion of the collar",
-    _motion,
-    out="films of pads are solved at rest",
-    needs="films of pads in motion, which scenes do not have",
+    model="thrust",
+    keys=("thrust.motion",),
+    is_on=lambda scene: scene.thrust.in_motion,
+    switched=lambda scene, on: (
+        with_settings(scene, "thrust", {"motion": "transient" if on else "quasi-static"})
+        if always_turns(scene) or not on
+        else None
+    ),
+    indicator=_worst(_motion),
+    out='thrust.motion = "quasi-static": films of pads are solved at rest',
+    needs='thrust.motion = "transient", of a shaft that never stands',
+    concerns=_has_collars,
+    rungs=("curve",),
 )
 
 
@@ -97,15 +98,16 @@ def _heat(
 ) -> Sizes:
     """What the warming of the oil takes off its viscosity, at the balance of the harder film.
 
-    Adiabatic: a pad warms its oil by D = P/(ρ c_p Q). Of what leaves at its end `CARRY_OVER` enters
-    the next pad, so that with s of the oil leaving there it enters λ s D/(1 − λ s) warmer than it
+    Adiabatic: a pad warms its oil by D = P/(ρ c_p Q). Of what leaves at its end λ enters the
+    next pad, so that with s of the oil leaving there it enters λ s D/(1 − λ s) warmer than it
     is fed, and the film is half of D warmer still.
     """
     hard = max((film.front, film.back), key=lambda row: row.force)
-    oil, fed = lubricant(MODEL_OIL), collar.lubricant
-    rise = hard.friction_power / (fed.density * HEAT_CAPACITY * hard.flow)
-    kept = CARRY_OVER * (1.0 - float(np.sum(hard.side_flow)) / hard.flow)
-    steepness = float(oil.steepness(Heat().inlet_temperature))
+    heat = collar.heat or PadHeat(oil=oil_of(collar.lubricant))
+    oil, fed = heat.liquid, collar.oil
+    rise = hard.friction_power / (fed.density * heat.heat_capacity * hard.flow)
+    kept = heat.carry_over * (1.0 - float(np.sum(hard.side_flow)) / hard.flow)
+    steepness = float(oil.steepness(heat.inlet_temperature))
     # the power falls with the viscosity: warmer = cold · exp(−FRICTION · steepness · warmer)
     falls = FRICTION * steepness
     warmer = float(lambertw(falls * rise * (kept / (1.0 - kept) + 0.5)).real) / falls
@@ -125,11 +127,43 @@ PRESSED = 0.105
 """Growth of the largest pressure over the loss of viscosity: a thinner film has a steeper wedge."""
 
 
-HEAT = _effect(
+def _warmed(scene: Scene, on: bool) -> Scene | None:
+    """The scene with a heat balance of each collar, or without any.
+
+    A stated viscosity is then that of the oil that enters.
+    """
+    changed: dict[str, AnyAxial] = {}
+    for place, collar in scene.thrust.collars.items():
+        stated = collar.model_dump(exclude_unset=True) | {"grid": collar.grid}
+        stated.pop("heat" if not on else "lubricant", None)
+        if on and collar.heat is None:
+            try:
+                stated["heat"] = PadHeat(oil=oil_of(collar.lubricant))
+            except InputError:
+                return None
+        changed[place] = type(collar).model_validate(stated).on_cells(collar.grid)
+    return with_collars(scene, changed)
+
+
+def with_collars(scene: Scene, changed: Mapping[str, AnyAxial]) -> Scene:
+    """The scene with other collars at their places."""
+    bearings = {**scene.thrust.bearings, **changed}
+    return scene.model_copy(
+        update={"thrust": scene.thrust.model_copy(update={"bearings": bearings})}
+    )
+
+
+HEAT = Effect(
     "heat of the collar",
-    _heat,
-    out="films of pads have one viscosity, that of the oil as it is stated",
-    needs="films of pads with heat, which scenes do not have",
+    model="thrust",
+    keys=(),
+    is_on=lambda scene: all(one.heat is not None for one in scene.thrust.collars.values()),
+    switched=_warmed,
+    indicator=_worst(_heat),
+    out="no heat of a thrust bearing: its films have one viscosity, that of the oil as stated",
+    needs="a table heat of the thrust bearing with the oil and the temperature at which it enters",
+    concerns=_has_collars,
+    cost=cost_of("heat"),
 )
 
 
@@ -149,11 +183,21 @@ def _tilt(
     }
 
 
-TILT = _effect(
+TILT = Effect(
     "tilt of the collar",
-    _tilt,
-    out="pads are aligned with the collar, however the shaft bends",
-    needs="a stiffer shaft, a thicker film, or pads that follow the shaft",
+    model="thrust",
+    keys=("thrust.tilt",),
+    is_on=lambda scene: scene.thrust.tilt,
+    switched=lambda scene, on: (
+        with_settings(scene, "thrust", {"tilt": on})
+        if not on or any(map(scene.shaft.bends_at, scene.thrust.collars))
+        else None
+    ),
+    indicator=_worst(_tilt),
+    out="no thrust.tilt: pads are aligned with the collar, however the shaft bends",
+    needs="thrust.tilt = true, with a beam as the shaft; pads that follow it lose less",
+    concerns=_has_collars,
+    cost=cost_of("tilt"),
 )
 
 
@@ -165,9 +209,14 @@ def _contact(
     return dict.fromkeys(_QUANTITIES, share)
 
 
-CONTACT = _effect(
+CONTACT = Effect(
     "contact of the collar",
-    _contact,
+    model="thrust",
+    keys=(),
+    is_on=lambda scene: False,
+    switched=lambda scene, on: None if on else scene,
+    indicator=_worst(_contact),
     out="films of pads alone carry; asperities would take load below a film parameter of 4",
     needs="films of pads with asperities, which scenes do not have",
+    concerns=_has_collars,
 )
