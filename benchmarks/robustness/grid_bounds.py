@@ -1,20 +1,26 @@
 """Whether bounds of the grid error hold: draws of every family against twice the cells each way.
 
 python -m benchmarks.robustness.grid_bounds [--draws N] [--first I] [--json FILE] [FAMILY …]
+python -m benchmarks.robustness.grid_bounds --rung reduced …
 
 The draws are those of `benchmarks.robustness.families`. The error is 4/3 of the difference from
 twice as many cells each way, as of the second order; "touching" takes those draws in which
 asperities carry. For each family: draws with both answers, the share of them in which
 `Equilibrium.grid_error`, or the attributes of a path, hold the error of each quantity, the median
 of bound over error, and of h_min how many are more than 25 % off with and without `resolved`.
+On "reduced", without an inlet line, the finer films have twice the points across, too; paths have
+no bounds there.
 """
 
 from __future__ import annotations
 
 import json
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
 from functools import partial
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 
@@ -22,6 +28,7 @@ from benchmarks.common import arguments
 from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
 from loadflow.errors import LoadflowError
 from loadflow.journal.grid_bounds import BOUNDED, UNRESOLVED
+from loadflow.journal.models import composed_model, composed_supply, reduced
 
 QUANTITIES = BOUNDED[1:]
 _RICHARDSON = 4.0 / 3.0
@@ -34,15 +41,30 @@ def apart(name: str, one: float, other: float) -> float:
     return min(way, 2.0 * np.pi - way) if name == "attitude_angle" else way
 
 
-def compare(family: str, number: int) -> dict[str, Any] | None:
+@contextmanager
+def many_points() -> Iterator[None]:
+    """Reduced films on at least twice the points across that they take by themselves."""
+    with (
+        patch.object(reduced, "POINTS", 7),
+        patch.object(composed_model, "HALF_POINTS", (12, 16, 20, 24, 28)),
+        patch.object(composed_model, "POINTS", (24, 28, 32, 36, 40)),
+        patch.object(composed_supply, "_POINTS", 9),
+    ):
+        yield
+
+
+def compare(family: str, number: int, rung: str = "grid") -> dict[str, Any] | None:
     """Bounds and errors of one draw; None where either grid has no answer."""
     point = draw_point(np.random.default_rng([SEEDS[family], number]))
     work = FAMILIES[family](point)
+    if rung == "reduced":
+        point.film.update(rung=rung, inlet=None)
     try:
         state = work()
         around, across = point.film["grid"]
         point.film["grid"] = (2 * around, 2 * across)
-        finer = work()
+        with many_points():
+            finer = work()
     except LoadflowError:
         return None
     if family == "touching" and not state.contact_share > _TOUCHES:
@@ -81,9 +103,9 @@ def compare_path(number: int) -> dict[str, Any] | None:
     return row | {"resolved": bool(paths[0].attrs["resolved"]), "off": off}
 
 
-def run(family: str, numbers: range) -> dict[str, Any]:
+def run(family: str, numbers: range, rung: str = "grid") -> dict[str, Any]:
     """Shares of one family."""
-    asked = compare_path if family == "orbit" else partial(compare, family)
+    asked = compare_path if family == "orbit" else partial(compare, family, rung=rung)
     rows = [row for number in numbers if (row := asked(number)) is not None]
     row: dict[str, Any] = {"draws": len(rows)}
     for name in [name for name in QUANTITIES if name in rows[0]]:
@@ -109,12 +131,13 @@ def main() -> None:
     parser.add_argument("families", nargs="*", default=every, metavar="FAMILY")
     parser.add_argument("--draws", type=int, default=200)
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--rung", choices=["grid", "reduced"], default="grid")
     parser.add_argument("--json", metavar="FILE", help="write the shares there")
     asked = parser.parse_args()
     warnings.simplefilter("ignore")
     rows = {}
     for family in asked.families:
-        rows[family] = run(family, range(asked.first, asked.first + asked.draws))
+        rows[family] = run(family, range(asked.first, asked.first + asked.draws), asked.rung)
         print(f"{family}: {rows[family]}", flush=True)
         if asked.json:
             with open(asked.json, "w", encoding="utf-8") as file:

@@ -118,8 +118,8 @@ def unresolved_counted() -> Iterator[None]:
 def warn_if_unresolved(columns: dict[str, Array]) -> None:
     """Warn of converged films, `columns` (n, …) of results, that the cells do not resolve.
 
-    Nothing is known of the cells of other rungs than the grid, and too little where asperities
-    carry: the bounds were not held against finer cells there.
+    Nothing is known of the cells of other rungs than "grid" and "reduced", and too little where
+    asperities carry: the bounds were not held against finer cells there.
 
     Warns
     -----

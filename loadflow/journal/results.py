@@ -89,14 +89,14 @@ class FilmState(Shown):
     def resolved(self) -> NDArray[np.bool_] | None:
         """Whether the cells resolve the narrowest gap, or the load at a given one, to 25 %.
 
-        None on rungs other than the grid.
+        None but on "grid" and "reduced".
         """
         bounds = self.relative_grid_error
         return None if bounds is None else resolved(bounds, self.converged)
 
     @property
     def grid_error(self) -> GridError | FieldError | None:
-        """Bounds of what the cells do to the results; None on rungs other than the grid."""
+        """Bounds of what the cells do to the results; None but on "grid" and "reduced"."""
         return None
 
     def shown_quantities(self) -> Mapping[str, Quantity]:
@@ -264,8 +264,8 @@ class Equilibrium(FilmState):
         Part of `contact_force` along `force`, over its size.
     relative_grid_error : array (…, 7), optional
         Bounds of what the cells do to force, eccentricity ratio, attitude angle (rad), smallest
-        film, largest pressure, friction power and side flow, over their values; None on rungs other
-        than the grid. `grid_error` has them in units, `resolved` says whether they are small.
+        film, largest pressure, friction power and side flow, over their values; None but on "grid"
+        and "reduced". `grid_error` has them in units, `resolved` says whether they are small.
 
     Examples
     --------
@@ -288,7 +288,7 @@ class Equilibrium(FilmState):
 
     @property
     def grid_error(self) -> GridError | None:
-        """Bounds of what the cells do to the results; None on rungs other than the grid.
+        """Bounds of what the cells do to the results; None but on "grid" and "reduced".
 
         They follow from the solved film alone: from how far its pressure bends within a cell, and
         its stiffness.
@@ -411,7 +411,7 @@ contact_area, contact_power, contact_share, relative_grid_error
 
     @property
     def grid_error(self) -> FieldError | None:
-        """Bounds of what the cells do to the results; None on rungs other than the grid."""
+        """Bounds of what the cells do to the results; None but on "grid" and "reduced"."""
         bounds = self._bounds()
         return None if bounds is None else FieldError(**_of(FieldError, bounds))
 

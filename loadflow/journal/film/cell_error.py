@@ -9,6 +9,9 @@ such that the bounds hold the error in 97 % of draws of each family of bearings
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import NamedTuple, TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -18,8 +21,9 @@ from loadflow.journal.film.gap import BoreGap
 from loadflow.journal.film.surface_film import SurfaceFilm
 
 Array = NDArray[np.float64]
+Numbers = TypeVar("Numbers", float, Array)
 
-_LOAD = 1.0 / 6.0  # of the load, of all second differences
+LOAD_SHARE = 1.0 / 6.0  # of the load, of all second differences
 _PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
 _FED = 1.25  # of the peak beside grooves, at whose edges the pressure has corners
 _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
@@ -59,46 +63,122 @@ def relative_errors(
         Share of asperities in the friction.
     """
     width = np.hypot(gap.around[0], gap.around[1])
-    share, missing, peak, _ = pressure_error(film, width, film.mesh.dz, 1.0)
-    if film.pockets.count:
-        peak *= _FED
-    out = np.zeros(7)
+    left = Left(*pressure_error(film, width, film.mesh.dz, 1.0)[:3])
     if stiffness is None:
-        size = float(np.hypot(*load[:2]))
-        out[0] = missing / size if size > 0.0 else 0.0
-        out[4], out[5], out[6] = peak, _SHEAR * share, _FLOW * share
-        return out
+        return held_errors(left, load)
     moves = np.arange(gap.size)[free]
-    response = _inverse(stiffness[free][:, free])
-    unbalanced = np.where(moves < gap.shaft, missing, 0.0)
-    unbalanced[(moves >= 2) & (moves < gap.shaft)] *= 0.5 * film.mesh.z_edges[-1]
     _, angle, z = gap.closest(position)
-    growth = float(film.deformation.max()) / (film.relative_clearance * film.radius)
-    narrow = max(gap.narrowest(position), np.finfo(float).tiny)
-    far = float(np.hypot(*position[:2]))
-    along = position[:2] / far if far > 0.0 else np.array([1.0, 0.0])
-    facing = np.array([np.cos(angle), np.sin(angle), -z * np.sin(angle), z * np.cos(angle)])
-    ways = np.zeros((3, gap.size))
-    ways[0, :2], ways[1, :2] = along, (-along[1], along[0])
-    ways[2, : min(gap.shaft, 4)] = facing[: gap.shaft]
-    outward, sideways, closer = np.abs(ways[:, moves] @ response) @ unbalanced
-    if far > 0.0:
-        out[1], out[2] = outward / far, _TURN * np.hypot(outward, sideways) / far
-    if gap.open_share is not None:  # rough surfaces keep a gap between them as their planes close
-        closer *= float(gap.open_share.min())
-    whole, shifted, touch = float(np.hypot(*load[:2])), 0.0, None
-    if film.contact is not None and whole > 0.0:  # what the film leaves, asperities take
-        touch = film.contact.at(position)
-        lubricated = max(float(np.hypot(*(load - touch.load)[:2])), _LITTLE * whole)
-        closer *= 1.0 + float(np.hypot(*touch.load[:2])) / whole
+    of_shaft = moves < min(gap.shaft, 4)
+    facing = np.zeros(moves.size)
+    facing[of_shaft] = facing_slopes(np.cos(angle), np.sin(angle), z)[moves[of_shaft]]
+    touch = None if film.contact is None else film.contact.at(position)
+    return resting_errors(
+        left,
+        Balance(
+            position=position[:2],
+            facing=facing,
+            stiffness=stiffness[free][:, free],
+            arms=np.select([moves < 2, moves < gap.shaft], [1.0, 0.5 * film.mesh.z_edges[-1]]),
+            narrow=gap.narrowest(position),
+            growth=float(film.deformation.max()) / (film.relative_clearance * film.radius),
+            opens=1.0 if gap.open_share is None else float(gap.open_share.min()),
+            load=load[:2],
+            touching=None if touch is None else touch.load[:2],
+            rubbing=rubbing / touch.normal if touch is not None and rubbing > 0.0 else 0.0,
+        ),
+    )
+
+
+class Left(NamedTuple):
+    """What cells leave out: `share` of the pressure, `missing` load, N, and share of the `peak`."""
+
+    share: float | Array
+    missing: float | Array
+    peak: float | Array
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Shafts in balance, as they answer to load that their film lacks; rows after any leading axes.
+
+    Attributes
+    ----------
+    position : array (2,)
+        Clearances.
+    facing : array (n,)
+        How the narrowest gap closes with each coordinate that moves, of which x and y come first.
+    stiffness : array (n, n)
+        Derivative of the load by these, N per clearance.
+    arms : array (n,)
+        Of the missing load about them; 0 of pads.
+    narrow, growth : float
+        Narrowest gap, and largest growth of an elastic shell, clearances.
+    opens : float
+        Least share of a growth of the mean planes by which the mean gap grows.
+    load : array (2,)
+        What film and asperities carry, N.
+    touching : array (2,) or None
+        What asperities carry of that; None without.
+    rubbing : float
+        Share of these in the friction, over what they are pressed with, 1/N.
+    """
+
+    position: Array
+    facing: Array
+    stiffness: Array
+    arms: Array
+    narrow: float | Array
+    growth: float | Array
+    opens: float | Array
+    load: Array
+    touching: Array | None
+    rubbing: float | Array
+
+
+def facing_slopes(c: float, s: float, z: float) -> Array:
+    """How the gap at an angle of cosine `c` and sine `s`, at `z`, closes with place and tilt."""
+    return np.array([c, s, -z * s, z * c])
+
+
+def held_errors(left: Left, load: Array) -> Array:
+    """Relative bounds of films at given positions that carry `load` (…, 2), N."""
+    out, size = np.zeros((*np.shape(left.share), 7)), np.hypot(load[..., 0], load[..., 1])
+    out[..., 0] = np.where(size > 0.0, left.missing / np.where(size > 0.0, size, 1.0), 0.0)
+    out[..., 4], out[..., 5], out[..., 6] = left.peak, _SHEAR * left.share, _FLOW * left.share
+    return out
+
+
+@np.errstate(over="ignore", invalid="ignore")  # of a film that its cells do not resolve at all
+def resting_errors(left: Left, balance: Balance) -> Array:
+    """Relative bounds of films in balance, as `relative_errors`; all may have leading axes."""
+    missing, facing = np.asarray(left.missing), balance.facing
+    x, y = balance.position[..., 0], balance.position[..., 1]
+    far = np.hypot(x, y)
+    known = np.where(far > 0.0, far, 1.0)
+    along_x, along_y = np.where(far > 0.0, x / known, 1.0), y / known
+    ways = np.zeros((*far.shape, 3, facing.shape[-1]))
+    ways[..., 0, 0], ways[..., 0, 1] = along_x, along_y
+    ways[..., 1, 0], ways[..., 1, 1], ways[..., 2, :] = -along_y, along_x, facing
+    moved = np.abs(ways @ _inverse(balance.stiffness)) @ balance.arms * missing[..., None]
+    outward, sideways, closer = moved[..., 0], moved[..., 1], moved[..., 2]
+    out = np.zeros((*far.shape, 7))
+    out[..., 1] = np.where(far > 0.0, outward / known, 0.0)
+    out[..., 2] = np.where(far > 0.0, _TURN * np.hypot(outward, sideways) / known, 0.0)
+    closer = closer * balance.opens  # rough surfaces keep a gap between them as their planes close
+    whole, shifted = np.hypot(balance.load[..., 0], balance.load[..., 1]), 0.0
+    if balance.touching is not None:  # what the film leaves, asperities take
+        loaded, rest = np.where(whole > 0.0, whole, 1.0), balance.load - balance.touching
+        carried = np.hypot(rest[..., 0], rest[..., 1])
+        rubs = np.hypot(balance.touching[..., 0], balance.touching[..., 1])
+        closer = closer * np.where(whole > 0.0, 1.0 + rubs / loaded, 1.0)
         # a film that carries little may do so in one spot
-        shifted = missing * whole / lubricated**2
-    pressed = _LOAD * share * growth  # what an elastic shell opens with the pressure
-    out[3], out[4] = (closer + pressed) / narrow, peak + shifted
-    out[5] = _SHEAR * share + _DRAG * out[3]
-    out[6] = _FLOW * share + _OPEN * (out[1] + out[3])
-    if touch is not None and rubbing > 0.0:
-        out[5] += rubbing * missing / touch.normal
+        shifted = missing * whole / np.maximum(carried, _LITTLE * loaded) ** 2
+    # what an elastic shell opens with the pressure
+    pressed = LOAD_SHARE * left.share * balance.growth
+    out[..., 3] = (closer + pressed) / np.maximum(balance.narrow, np.finfo(float).tiny)
+    out[..., 4] = left.peak + shifted
+    out[..., 5] = _SHEAR * left.share + _DRAG * out[..., 3] + balance.rubbing * missing
+    out[..., 6] = _FLOW * left.share + _OPEN * (out[..., 1] + out[..., 3])
     return out
 
 
@@ -118,12 +198,21 @@ def pressure_error(
     whole = float(np.vdot(np.abs(pressure - film.p_edge), area))
     share = bent / whole if whole > 0.0 else 0.0
     row, column = np.unravel_index(int(pressure.argmax()), pressure.shape)
-    highest, peak = float(pressure[row, column]), _PEAK * share
+    highest, beside_it = float(pressure[row, column]), 0.0
     if highest > 0.0:
         rows = np.arange(row - 1, row + 2) % len(pressure)
         near = rows[:, None], slice(max(0, column - 1), column + 2)
-        peak += _AT_PEAK * float(around[near].max() + beside[near].max()) / highest
-    return share, _LOAD * film.mirrors * film.radius**2 * bent, peak, _LOAD * bends
+        beside_it = float(around[near].max() + beside[near].max()) / highest
+    peak = peak_share(share, beside_it, bool(film.pockets.count))
+    return share, LOAD_SHARE * film.mirrors * film.radius**2 * bent, peak, LOAD_SHARE * bends
+
+
+def peak_share(share: Numbers, beside: Numbers, fed: bool) -> Numbers:
+    """Share of the peak that is left out, by that of all, and by differences `beside` it.
+
+    `fed` says whether there are grooves of a supply.
+    """
+    return (_FED if fed else 1.0) * (_PEAK * share + _AT_PEAK * beside)
 
 
 def _differences(film: DiscreteFilm, on_edges: float) -> tuple[Array, Array]:
@@ -180,12 +269,16 @@ def drag_error(shear: float, gap: float) -> float:
 
 
 def _inverse(stiffness: Array) -> Array:
-    """How far the shaft moves under a load; of a stiffness that is none the least."""
-    if not np.isfinite(stiffness).all():
-        return np.full(stiffness.shape, np.nan)
-    if len(stiffness) == 2:
-        (a, b), (c, d) = stiffness.tolist()
-        det = a * d - b * c
-        if abs(det) > _REGULAR * max(abs(a), abs(b), abs(c), abs(d)) ** 2:
-            return np.array([[d, -b], [-c, a]]) / det
-    return np.asarray(np.linalg.pinv(stiffness))
+    """How far shafts move under a load, (…, n, n); of a stiffness that is none the least."""
+    finite = np.asarray(np.isfinite(stiffness).all(axis=(-2, -1)))
+    known = np.where(finite[..., None, None], stiffness, 0.0)
+    if stiffness.shape[-1] > 2:
+        return np.where(finite[..., None, None], np.linalg.pinv(known), np.nan)
+    a, b, c, d = (known[..., i, j] for i in (0, 1) for j in (0, 1))
+    det = a * d - b * c
+    regular = np.asarray(np.abs(det) > _REGULAR * np.abs(known).max(axis=(-2, -1)) ** 2)
+    turned = np.stack([np.stack([d, -b], axis=-1), np.stack([-c, a], axis=-1)], axis=-2)
+    inverse = turned / np.where(regular, det, 1.0)[..., None, None]
+    if not regular.all():
+        inverse = np.where(regular[..., None, None], inverse, np.linalg.pinv(known))
+    return np.where(finite[..., None, None], inverse, np.nan)

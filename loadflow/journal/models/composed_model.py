@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
+from loadflow.journal.cavitation import LOAD
 from loadflow.journal.contact import Contact
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
@@ -20,7 +21,9 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN
 from loadflow.journal.models.composed_contact import depth_at, rough_of, yielding_of
+from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_film import (
     EVEN,
     LAMINAR,
@@ -97,6 +100,14 @@ class ComposedFilm:
     def columns(self) -> int:
         """Of a row of results: those of every film, then the flow of each groove."""
         return at.RESULTS + self.work.fed.size
+
+    def judge(self, judged: Judged, n: int) -> None:
+        """Have the film that the work arrays hold judged, as number `n`."""
+        inner, points = self.film.nodes.slopes.shape[1], self.film.nodes.z.size
+        opens, gap = 1.0, self.work.gap[MEAN, :, :points]
+        if self.film.rough.size > 0.0:
+            opens = float(self.work.gap[OPEN, :, :points].min())
+        judged.add(n, self.work.state[LOAD, :, :inner], gap, opens)
 
     def loads(self, force: Array) -> Array:
         """Forces, N, and moments over the shaft radius, (n, 4)."""

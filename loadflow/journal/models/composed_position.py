@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from loadflow.journal.cavitation import FILL, LOAD, P
+from loadflow.journal.film.cell_error import held_errors
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -21,6 +22,7 @@ from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_gap_kernels import MEAN, PLANES
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed import finer_around
+from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     build,
@@ -57,6 +59,8 @@ class Held:
         Load that it carries with its asperities, N.
     slopes : array (2, s, s)
         Derivatives of that by position and by velocity, with their sign turned.
+    errors : array (7,)
+        Bounds of what its cells and points leave out, as `Equilibrium.relative_grid_error`.
     found : bool
         Whether it is an answer, on cells around that resolve it.
     left : bool
@@ -70,6 +74,7 @@ class Held:
     row: Array
     force: Array
     slopes: Array
+    errors: Array
     found: bool
     left: bool
 
@@ -158,7 +163,10 @@ class Positions:
         found = bool(found and (not self.options.may_grade or model.resolves(place)))
         force = work.load[:2] + work.touch[0, :2]
         film = work.u.copy(), work.state[P].copy()
-        return Held(model, *film, place, row, force, slopes, found, found and left)
+        judged = Judged(ring, model.film.nodes, model.film.held.on, 1)
+        model.judge(judged, 0)
+        errors = held_errors(judged.left(), force[None])[0]
+        return Held(model, *film, place, row, force, slopes, errors, found, found and left)
 
     def _solve(self, n: int, model: ComposedFilm, place: Array, slopes: Array) -> Array:
         """Row of the film at a place of position `n`, from the unknowns that are there."""
@@ -240,6 +248,7 @@ def pressure(
         "stiffness": slopes[:, 0],
         "damping": slopes[:, 1],
         "converged": np.array([film.found for film in held]),
+        "relative_grid_error": np.array([film.errors for film in held]),
     }
     if options.contact is not None:
         answer["contact_share"] = contact_share(answer["contact_force"], force)

@@ -9,12 +9,14 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.cell_error import Balance, resting_errors
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
+from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
 from loadflow.journal.models.slow_heat import COLD, standing_states
@@ -106,6 +108,7 @@ def films_at_rest(
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
     none, thin, slopes = np.zeros(count, bool), np.zeros(count, bool), np.zeros((2, both, both))
     loads = _Loads(model, force, speed, model.lines(count), control)
+    judged = Judged(model.film.ring, model.film.nodes, model.film.held.on, count)
     films: dict[int, tuple[Array, Array]] = {}
     last: int | None = None
     for n in range(count):
@@ -127,6 +130,7 @@ def films_at_rest(
                 rows[n], stiffness[n], damping[n] = row, *slopes
                 work.last[:] = work.u
                 last = n
+                model.judge(judged, n)
                 thin[n] = model.film.give > 0.0 and not model.resolves_gap(row[at.LEAST])
                 if model.unresolved_across(row[None])[0]:
                     films[n] = work.u.copy(), start.place.copy()
@@ -144,10 +148,40 @@ def films_at_rest(
         "stiffness": stiffness * scale,
         "damping": damping * scale,
     }
+    answer["relative_grid_error"] = _errors(model, judged, rows, force, answer, stiffness)
     if options.contact is not None:
         answer["contact_share"] = contact_share(answer["contact_force"], force)
     found, left = rows[:, at.CONVERGED] > 0, model.unresolved_across(rows)
     return RestingFilms(answer, found, left, none, thin, model, films)
+
+
+def _errors(
+    model: ComposedFilm,
+    judged: Judged,
+    rows: Array,
+    force: Array,
+    answer: dict[str, Any],
+    stiffness: Array,
+) -> Array:
+    """Relative bounds of what cells and points leave out, (n, 7); `stiffness` is per clearance."""
+    contact, size, rubbing = model.options.contact, model.size, np.zeros(len(rows))
+    if contact is not None:
+        rubbing = answer["contact_power"] / np.maximum(answer["friction_power"], 1e-300)
+        rubbing = rubbing / np.maximum(rows[:, at.NORMAL], 1e-300)
+    half = model.bearing.width / model.bearing.diameter
+    balance = Balance(
+        position=rows[:, [at.X, at.Y]],
+        facing=judged.facing[:, :size],
+        stiffness=stiffness[:, :size, :size],
+        arms=np.array([1.0, 1.0, 0.5 * half, 0.5 * half])[:size],
+        narrow=rows[:, at.LEAST] if contact is None else judged.narrow,
+        growth=rows[:, at.GROWTH],
+        opens=judged.opens,
+        load=force,
+        touching=None if contact is None else rows[:, [at.CONTACT_X, at.CONTACT_Y]],
+        rubbing=rubbing,
+    )
+    return resting_errors(judged.left(), balance)
 
 
 class _Loads:

@@ -16,6 +16,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.journal.cavitation import LOAD
+from loadflow.journal.film.cell_error import Balance, resting_errors
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_shaped import ShapedGap
@@ -33,6 +35,7 @@ from loadflow.journal.models import (
 )
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
+from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.model import Steps
@@ -45,7 +48,7 @@ from loadflow.journal.models.ring import (
     units_of,
 )
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
-from loadflow.journal.models.width_modes import lobatto
+from loadflow.journal.models.width_modes import half_width_nodes, lobatto
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
 from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
@@ -85,9 +88,11 @@ def equilibrium(
         return _with_the_grid(bearing, options, line, answer, control, found)
     film = units_of(bearing, options, speed)
     reduced, work = _discrete(bearing, options, film)
+    half = float(film.mesh.z_edges[-1])
     count, bore = speed.size, Bore.of(bearing)
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
+    judged = Judged(reduced.ring, half_width_nodes(half, POINTS), False, count)
     starts = _Starts(bearing, film, reduced, work, estimates(bearing, film, force, speed))
     for n in range(count):
         spent, converged = 0, False
@@ -103,11 +108,24 @@ def equilibrium(
                 converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
                 finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
+                judged.add(n, work.state[LOAD], work.gap[:, None])
                 starts.keep(n, (x, y))
             if answered:
                 break
         rows[n, at.RESIDUAL :] = residual, spent, converged, rounding
     position = rows[:, [at.X, at.Y]]
+    balance = Balance(
+        position=position,
+        facing=judged.facing[:, :2],
+        stiffness=stiffness,
+        arms=np.ones(2),
+        narrow=judged.narrow,
+        growth=0.0,
+        opens=1.0,
+        load=force,
+        touching=None,
+        rubbing=0.0,
+    )
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
         **_results(bearing, film, rows, speed),
@@ -115,6 +133,7 @@ def equilibrium(
         "stiffness": stiffness / bearing.clearance,
         "damping": damping / bearing.clearance,
         "converged": rows[:, at.CONVERGED] > 0,
+        "relative_grid_error": resting_errors(judged.left(), balance),
     }
     return _with_the_grid(bearing, options, line, answer, control, answer["converged"])
 
