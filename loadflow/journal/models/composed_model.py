@@ -60,6 +60,7 @@ _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft mu
 _SHORTER = 1.0 / 3.0  # of the gap of a rigid bore that asks for the same cells
 _THINNER = 2.0  # times a gap in a rigid bore, that one in a shell may be
 _UNRESOLVED = 0.08  # highest polynomials over the largest pressure: beyond, there are too few
+_RUBS = 0.02  # share of the load that asperities carry, above which the first points are too few
 _UPPER = 0.1  # the same of the sum of their upper half, of a film at rest
 
 
@@ -386,6 +387,15 @@ def contact_share(carried: Array, force: Array) -> Array:
     size = (force * force).sum(axis=-1)
     along = (carried * force).sum(axis=-1)
     return np.where(size > 0.0, along / np.where(size > 0.0, size, 1.0), 0.0)
+
+
+def rubs(rows: Array, force: Array) -> NDArray[np.bool_]:
+    """Whether asperities carry so much of loads (n, 2), N, that the first points are too few.
+
+    What they carry follows the gap so steeply that six points across a tilted film, which miss a
+    thousandth of the gap, missed a twentieth of the friction.
+    """
+    return np.asarray(contact_share(rows[:, [at.CONTACT_X, at.CONTACT_Y]], force) > _RUBS)
 
 
 def _give(bearing: JournalGeometry, options: Film) -> float:

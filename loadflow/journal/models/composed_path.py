@@ -30,6 +30,7 @@ from loadflow.journal.models.composed_model import (
     build,
     contact_share,
     levels_of,
+    rubs,
     unknowns_on,
     warn_unresolved,
 )
@@ -143,12 +144,15 @@ class March:
         some = slice(begin, end)
         rows, force = self.rows[some], self.drive.force[some]
         missed = self.model.unresolved_on_path(rows, force, self.typical)
+        if level == self.levels[0]:
+            missed |= rubs(rows, force)
         return level == self.levels[-1] or not missed.any()
 
     def asks_for_more(self, begin: int, end: int) -> bool:
         """Whether the first level would miss what a further one has found in these samples."""
         rows, force = self.rows[begin:end], self.drive.force[begin:end]
-        return bool(self.model.unresolved_on_path(rows, force, self.typical, at.BEYOND).any())
+        missed = self.model.unresolved_on_path(rows, force, self.typical, at.BEYOND)
+        return bool((missed | rubs(rows, force)).any())
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, and where the shaft is; None where it is not found."""
