@@ -23,7 +23,7 @@ ROOMS = (
 FOUND = {
     "journal": "BestCrown ConicalResult DoubleThrustResult EnergyBalance Equilibrium FieldError "
     "FilmField FilmHeatEquilibrium FilmHeatField GridError PadError PadResult "
-    "PairResult ThrustResult WarmEquilibrium WarmFilm Wear",
+    "PairResult ThrustResult WarmEquilibrium WarmFilm WarmThrustResult Wear",
     "rolling": "BallBearingResult BearingLife BoltLoads EdgeContact ExpansionResult FlexibleResult "
     "LifeModification LineContact PointContact RollerResult RollingEquilibrium SlewingResult "
     "SpectrumLife SpinningResult ThreeRowResult Transient Verdict",
