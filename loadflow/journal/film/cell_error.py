@@ -27,6 +27,7 @@ LOAD_SHARE = 1.0 / 6.0  # of the load, of all second differences
 _PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
 _FED = 1.25  # of the peak beside grooves, at whose edges the pressure has corners
 _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
+_FED_TURN = 1.5  # of that beside grooves
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
 # where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
 _NODES, _CLOSES = 1.25, 1.5
@@ -85,6 +86,7 @@ def relative_errors(
             load=load[:2],
             touching=None if touch is None else touch.load[:2],
             rubbing=rubbing / touch.normal if touch is not None and rubbing > 0.0 else 0.0,
+            fed=bool(film.pockets.count),
         ),
     )
 
@@ -121,6 +123,8 @@ class Balance:
         What asperities carry of that; None without.
     rubbing : float
         Share of these in the friction, over what they are pressed with, 1/N.
+    fed : bool
+        Whether there are grooves of a supply.
     """
 
     position: Array
@@ -133,6 +137,7 @@ class Balance:
     load: Array
     touching: Array | None
     rubbing: float | Array
+    fed: bool
 
 
 def facing_slopes(c: float, s: float, z: float) -> Array:
@@ -163,7 +168,8 @@ def resting_errors(left: Left, balance: Balance) -> Array:
     outward, sideways, closer = moved[..., 0], moved[..., 1], moved[..., 2]
     out = np.zeros((*far.shape, 7))
     out[..., 1] = np.where(far > 0.0, outward / known, 0.0)
-    out[..., 2] = np.where(far > 0.0, _TURN * np.hypot(outward, sideways) / known, 0.0)
+    turn = _TURN * (_FED_TURN if balance.fed else 1.0)
+    out[..., 2] = np.where(far > 0.0, turn * np.hypot(outward, sideways) / known, 0.0)
     closer = closer * balance.opens  # rough surfaces keep a gap between them as their planes close
     whole, shifted = np.hypot(balance.load[..., 0], balance.load[..., 1]), 0.0
     if balance.touching is not None:  # what the film leaves, asperities take

@@ -180,6 +180,7 @@ def _errors(
         load=force,
         touching=None if contact is None else rows[:, [at.CONTACT_X, at.CONTACT_Y]],
         rubbing=rubbing,
+        fed=model.film.held.on,
     )
     return resting_errors(judged.left(), balance)
 

@@ -125,6 +125,7 @@ def equilibrium(
         load=force,
         touching=None,
         rubbing=0.0,
+        fed=False,
     )
     answer = {
         **operating_columns(bearing, force, speed, options.liquid, position),
