@@ -166,7 +166,6 @@ def test_a_start_and_a_stop_at_full_length_and_accuracy(dlc, tmp_path):
 
 
 SHORT = {
-    "3.3": ("dlc_3_1_startup", 12.0, 130.0),
     "6.1": ("dlc_6_1_parked", 50.0, 40.0),
     "6.2": ("dlc_6_1_parked", 50.0, 40.0),
     "6.3": ("dlc_6_1_parked", 40.0, 40.0),
@@ -178,22 +177,22 @@ SHORT = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize("dlc", SHORT)
-def test_rotors_that_stand_idle_or_start_in_a_gust_run_to_the_end_by_the_defaults(dlc, tmp_path):
+def test_rotors_that_stand_or_idle_run_to_the_end_by_the_defaults(dlc, tmp_path):
     name, speed, duration = SHORT[dlc]
     scene = read_scene(next(path for path in PIPELINES if path.stem == name))
     keys = {"wind_speeds": [speed], "seeds": 1, "duration": duration, "step": 0.05}
-    yawed = {} if scene.loads.dlc == "3.1" else {"yaw_errors": [0.2]}
-    run = lf.run(changed(scene, "loads", dlc=dlc, **keys, **yawed), out=tmp_path, workers=2)
+    keys |= {"yaw_errors": [0.2]}
+    run = lf.run(changed(scene, "loads", dlc=dlc, **keys), out=tmp_path, workers=2)
     assert run.failures == {}
     assert run.flagged == {}
     table = run.tree["journal"].to_dataset()
     assert (table["not_converged"] == 0).all()
     assert (table["smallest_film"] > 0).all()
     turns = table["largest_pressure"].notnull()  # of samples in which the shaft turns
-    assert turns.all() if dlc in ("3.3", "6.4") else not turns.any()
+    assert turns.all() if dlc == "6.4" else not turns.any()
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     measured = MOTION.name in manifest["pilot"]["sizes"]
-    assert measured == (dlc in ("3.3", "6.4"))
+    assert measured == (dlc == "6.4")
     assert ("journal" in manifest["refined"]) <= measured  # cells help no shaft that stands
 
 
