@@ -79,7 +79,8 @@ def test_benchmarks_and_plan_name_a_rung_by_the_same_function():
             if "settings" in entry:
                 model = table.removesuffix(", transient")
                 moving = {"motion": "transient"} if model != table else {}
-                scene = make_scene({"name": "r", "rolling": {}})
+                rolling = {"arrangement": "two-spherical"} if "rollers" in name else {}
+                scene = make_scene({"name": "r", "rolling": rolling})
                 assert rung_key(scene, model, **moving | entry["settings"]) == name
                 named += 1
     assert named > 30

@@ -27,6 +27,7 @@ from loadflow.journal import (
     LocalShell,
     Lubricant,
     MassConserving,
+    PadHeat,
     ThrustBearing,
 )
 from loadflow.journal.film_model import Film
@@ -214,6 +215,7 @@ def results():
         BEARING.pressure((7e-5, 3e-5), 50.0, OIL, grid=(36, 8)),
         BEARING.pressure((7e-5, 3e-5), 50.0, hot),
         lands.equilibrium(1e6, 10.0, pads),
+        lands.equilibrium(1e6, 10.0, Film(None, heat=PadHeat("iso-vg-68"), grid=(20, 10))),
         collar.equilibrium(1e6, 10.0, pads),
         cone.pressure((5e-5, 0.0, 0.0), 10.0, thick),
         pair.equilibrium((1e5, 0.0, 5e4), (0.0, 0.0), 1.0, thick),

@@ -73,6 +73,12 @@ class WithFittingBeams(BaseModel):
         scene._open_beams = kinds or scene._open_beams
         return scene
 
+    def __eq__(self, other: object) -> bool:
+        """Whether all keys are equal; how a scene was written makes no other of it."""
+        if not isinstance(other, BaseModel):
+            return NotImplemented
+        return type(self) is type(other) and self.__dict__ == other.__dict__
+
 
 def fitted(shaft: Mapping[str, Any], journal: Journal, open_beams: Sequence[str]) -> Iterator[str]:
     """Say which beams of a resolved shaft, as plain data, have the section that fits.

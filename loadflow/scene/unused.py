@@ -34,7 +34,7 @@ _RESULTS = {
     "seeds": ("seeds",),
     "reduction": ("reduction", "journal", "rolling.l", "thrust"),
     "journal": ("journal",),
-    "thrust": ("thrust",),
+    "thrust": ("thrust", "journal.film"),  # whose verdict asks what takes the thrust
     "dynamics": ("journal.dynamics", "rolling.dynamics"),
     "wear": ("journal.wear",),
     "lifetime": ("journal.film", "journal.wear", "thrust", "rolling.life", "rolling.friction"),

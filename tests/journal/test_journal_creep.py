@@ -118,7 +118,7 @@ def test_steps_of_every_way_count(alone, monkeypatch):
 
     def counted(*given):
         solved = solve(*given)
-        spent.append(int(given[11][0, at.ITERATIONS]))
+        spent.append(int(given[12][0, at.ITERATIONS]))
         return solved
 
     for module in (composed_rest, composed_creep):
@@ -138,7 +138,7 @@ def test_what_is_no_number_is_no_film():
         model.work.u[:] = np.nan
         solve(
             model.film, model.work, np.array([0.9, 0.1, 0.0, 0.0]), size, 0, np.zeros(1),
-            model.loads(force), model.lines(1), speed, 1e-10, 60, row, np.zeros((2, 0, 0)), COLD,
+            model.loads(force), model.lines(1), speed, 1e-10, 60, np.inf, row, np.zeros((2, 0, 0)), COLD,
             standing_states(1),
         )  # fmt: skip
         assert not row[0, at.CONVERGED]

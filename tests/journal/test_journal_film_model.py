@@ -125,7 +125,10 @@ def test_heat_is_refused_where_no_model_has_it():
         BEARING.pressure((0.0, 0.0), 100.0, film)
     fast = Film(heat=FilmHeat(), **WORDS | {"rung": "reduced"})
     with pytest.raises(InputError, match="heat = "):
-        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, fast)
+        BEARING.pressure((0.0, 0.0), 100.0, fast)
+    chart = Film(heat=FilmHeat(), **WORDS | {"rung": "map"})
+    with pytest.raises(InputError, match="heat = "):
+        BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, chart)
 
 
 def test_a_film_may_be_part_of_a_set():
