@@ -138,8 +138,8 @@ def test_what_is_no_number_is_no_film():
         model.work.u[:] = np.nan
         solve(
             model.film, model.work, np.array([0.9, 0.1, 0.0, 0.0]), size, 0, np.zeros(1),
-            model.loads(force), model.lines(1), speed, 1e-10, 60, np.inf, row, np.zeros((2, 0, 0)), COLD,
-            standing_states(1),
+            model.loads(force), model.lines(1), speed, 1e-10, 60, np.inf, row,
+            np.zeros((2, 0, 0)), COLD, standing_states(1),
         )  # fmt: skip
         assert not row[0, at.CONVERGED]
         assert row[0, at.RESIDUAL] == np.inf
