@@ -6,6 +6,7 @@ follows the temperatures within the solution.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -74,7 +75,7 @@ class Warmth:
         return abs(missing) / max(self.friction, 1e-300)
 
 
-class Temperatures:
+class Temperatures(ABC):
     """Temperatures of the cells and grooves of a film.
 
     Parameters
@@ -127,6 +128,10 @@ class Temperatures:
     def mean_growth(self) -> float:
         """The same on average over the cells, m."""
         return 0.0
+
+    @abstractmethod
+    def thicken(self, state: Array) -> None:
+        """Give the film what it has of the temperatures `state`: viscosity, and growth if any."""
 
     def state(self, warmth: Warmth | None) -> Array:
         """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil."""

@@ -44,7 +44,7 @@ from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
-from loadflow.journal.solvers.warm_mean import MeanHeat, series_loads, warn_left_out
+from loadflow.journal.solvers.warm_mean import MeanHeat, in_balance, series_loads
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -349,9 +349,4 @@ def mean_around(
     def heat_of(last: Solution, cells: Array) -> Warmth:
         return equation.of(made, cells)
 
-    warm = coupled(equation, film_of, None, heat_of)
-    if not warm.converged or warm.warmth is None:
-        raise SolverError(f"orbit cannot start: {warm.why or 'no load has a film at rest'}")
-    warn_left_out(len(made), len(some))
-    equation.thicken(equation.state(warm.warmth))
-    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations), equation.viscosity
+    return in_balance(equation, film_of, heat_of, made, len(some)), equation.viscosity

@@ -8,6 +8,7 @@ make on average is the heat that they carry off on average.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sized
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,7 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.warm import coupled, energy_of
+from loadflow.journal.solvers.warm import FilmOf, HeatOf, coupled, energy_of
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
 
@@ -64,15 +65,45 @@ def series_loads(count: int) -> list[int]:
     return np.unique(np.linspace(0, count - 1, SAMPLES).round().astype(int)).tolist()
 
 
-def warn_left_out(found: int, asked: int) -> None:
-    """Warn of loads without a film at rest, if `found` are few of those `asked`."""
-    if found < (1.0 - LEFT_OUT) * asked:
+def in_balance(
+    equation: Temperatures, film_of: FilmOf, heat_of: HeatOf, found: Sized, asked: int
+) -> MeanHeat:
+    """Bring a film to the temperatures of its mean heat.
+
+    Parameters
+    ----------
+    equation : Temperatures
+        Over the area of the film; keeps viscosity and growth.
+    film_of, heat_of : callable
+        As of `coupled`, over the whole series.
+    found : sized
+        Films at rest that `film_of` found last.
+    asked : int
+        Loads of the series that it asks for.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No temperatures, or none of the loads has a film at rest.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        More than `LEFT_OUT` of the loads have no film at rest.
+    """
+    warm = coupled(equation, film_of, None, heat_of)
+    if not warm.converged or warm.warmth is None:
+        why = warm.why or "no load of the series has a film at rest"
+        raise SolverError(f"orbit cannot start: {why}")
+    if len(found) < (1.0 - LEFT_OUT) * asked:
         warnings.warn(
-            f"temperatures of the film: at rest {asked - found} of {asked} loads of "
+            f"temperatures of the film: at rest {asked - len(found)} of {asked} loads of "
             "the series have none; they are those of the others",
             ValidityWarning,
             stacklevel=6,
         )
+    equation.thicken(equation.state(warm.warmth))
+    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations)
 
 
 def with_temperatures(path: xr.Dataset, heat: MeanHeat, clearance: float) -> xr.Dataset:
@@ -128,10 +159,4 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         films = [(one.u, one.position, float(speeds[index])) for index, one in found.items()]
         return equation.solve_mean(films, cells)
 
-    warm = coupled(equation, film_of, None, heat_of)
-    if not warm.converged or warm.warmth is None:
-        why = warm.why or "no load of the series has a film at rest"
-        raise SolverError(f"orbit cannot start: {why}")
-    warn_left_out(len(found), len(some))
-    equation.thicken(equation.state(warm.warmth))
-    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations)
+    return in_balance(equation, film_of, heat_of, found, len(some))
