@@ -17,6 +17,9 @@ Array = NDArray[np.float64]
 TRIES = 60
 """Temperatures that are tried."""
 
+_SETTLED = 1e-10
+"""Last step of a temperature, K."""
+
 
 class Carried(NamedTuple):
     """What a row does at rest (n,): N, N s/m, N m, m³/s, K, Pa s."""
@@ -73,7 +76,10 @@ class Side:
         )
 
     def _warmth(self, sums: Array, speed: Array) -> tuple[Array, Array]:
-        """Temperature, K, and viscosity of films: T = T_in + k η(T), by Newton from the cold."""
+        """Temperature, K, and viscosity of films: T = T_in + k η(T), by Newton from the cold.
+
+        A temperature that is not found in `TRIES` is NaN.
+        """
         if self.heat is None:
             return np.full(speed.size, np.nan), np.full(speed.size, self.viscosity)
         oil = self.heat.liquid
@@ -88,9 +94,10 @@ class Side:
             left = self.heat.inlet_temperature + rise * viscosity - warm
             step = left / (1.0 + rise * viscosity * oil.steepness(warm))
             warm = np.minimum(warm + step, HOTTEST)
-            if np.all((np.abs(step) < 1e-10) | (warm == HOTTEST)):
+            settled = (np.abs(step) < _SETTLED) | (warm == HOTTEST)
+            if settled.all():
                 break
-        return warm, np.asarray(oil.viscosity(warm))
+        return np.where(settled, warm, np.nan), np.asarray(oil.viscosity(warm))
 
     def pressure(self, gap: Array, rest: Carried, carried: Array) -> Array:
         """Largest pressures above that of the edges, Pa, of films that carry so much in motion, N.

@@ -47,6 +47,15 @@ def test_films_around_a_tilted_collar_are_those_of_the_grid(tilted):
         assert found.friction_power[k] == pytest.approx(exact.friction_power, rel=3e-3)
 
 
+def test_a_temperature_that_is_not_found_is_no_answer(monkeypatch):
+    series = CollarSeries(COLLAR, WARM, CONTACT)
+    assert series.equilibrium(FORCES, SPEEDS).converged.all()
+    monkeypatch.setattr("loadflow.journal.collar_sides.TRIES", 1)
+    found = series.equilibrium(FORCES, SPEEDS)
+    assert not found.converged.any()
+    assert np.isnan(found.temperature).all()
+
+
 def test_the_stated_error_is_no_less_than_the_true_one(tilted):
     found = tilted.equilibrium(FORCES, SPEEDS, TILTS)
     exact = [COLLAR.equilibrium(f, w, FILM, tilt=t) for f, w, t in zip(FORCES, SPEEDS, TILTS)]
