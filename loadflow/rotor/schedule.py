@@ -34,6 +34,7 @@ def schedule_over_power(turbine: Turbine) -> tuple[Array, Array]:
     speed = c.region_2_start / m.gear_ratio
     powers: list[float] = []
     for wind, pitch in zip(turbine.control.scheduled_wind, turbine.control.scheduled_pitch):
+        pitch = float(pitch)  # whole numbers would have the loop compiled once more
         held = c._replace(minimum_pitch=pitch, scheduled_pitch=np.array([pitch]))
         state = turning_state(m, held, wind, speed, pitch)
         steps = round(_SETTLE / _STEP)

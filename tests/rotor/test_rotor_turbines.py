@@ -4,11 +4,15 @@ import dataclasses
 
 import numpy as np
 import pytest
+from numba import typeof
 
 from loadflow.rotor import RotorOptions, simulate, steady_state
 from loadflow.rotor.control._kernels import control_torque
 from loadflow.rotor.control.constants import STATES, controller
-from loadflow.turbines import load_turbine
+from loadflow.rotor.machine import machine
+from loadflow.rotor.tables import with_table
+from loadflow.rotor.tuning import tuned
+from loadflow.turbines import load_turbine, turbine_names
 
 CALM = RotorOptions(tower_dam=False, skew_factor=0.0)
 
@@ -22,6 +26,17 @@ def test_windpact_turns_at_the_speed_that_its_torque_constant_asks_for():
     assert point["pitch"].values[0] == pytest.approx(np.radians(2.6))
     assert power[1] == pytest.approx(1.57895e6, rel=1e-3)
     assert speed[1] * 30 / np.pi == pytest.approx(20.463, rel=1e-3)
+
+
+def test_the_loop_is_compiled_once_for_all_turbines_and_effects():
+    rigid = RotorOptions(modes=(), tower_motion=False, drivetrain_torsion=False, tower_dam=False)
+    turbines = [tuned(load_turbine(name)) for name in turbine_names()]
+    kinds = {
+        (typeof(with_table(machine(one, options))), typeof(controller(one)))
+        for one in turbines
+        for options in (RotorOptions(), rigid)
+    }
+    assert len(kinds) == 1
 
 
 @pytest.mark.parametrize("name", ["windpact-1.5mw", "iea-15mw"])
