@@ -30,7 +30,8 @@ def test_windpact_turns_at_the_speed_that_its_torque_constant_asks_for():
 
 def test_the_loop_is_compiled_once_for_all_turbines_and_effects():
     rigid = RotorOptions(modes=(), tower_motion=False, drivetrain_torsion=False, tower_dam=False)
-    turbines = [tuned(load_turbine(name)) for name in turbine_names()]
+    names = [*turbine_names(), "nrel-5mw@8e6"]
+    turbines = [tuned(load_turbine(name)) for name in names]
     kinds = {
         (typeof(with_table(machine(one, options))), typeof(controller(one)))
         for one in turbines
