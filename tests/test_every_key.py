@@ -10,7 +10,7 @@ import re
 
 import pytest
 from walk_readers import FOUND, fingerprints
-from walk_scenes import BASES, OPTIONAL, OTHERS, WALKED, files
+from walk_scenes import BASES, OPTIONAL, OTHERS, WALKED, WHOLE, files
 
 from loadflow.errors import InputError, LoadflowError
 from loadflow.journal.cavitation import LAWS
@@ -91,10 +91,10 @@ def scene_of(data, words):
     return make_scene({"name": "walk"} | filled(data, words))
 
 
-def walked(name, words):
+def walked(name, words, parts):
     """What is walked over of a scene: path, value and the scene's section as plain data."""
     scene = scene_of(BASES[name], words)
-    for where in WALKED[name]:
+    for where in parts:
         section, *inside = where.split(".")
         table = scene.model_dump(mode="json", include={section})[section]
         for path, value in leaves(table):
@@ -200,11 +200,15 @@ SHOWN_ELSEWHERE = {"design.crown.exponent"}
 
 
 @pytest.mark.parametrize(
-    "name", [pytest.param(one, marks=[pytest.mark.slow] * (one in LONG)) for one in BASES]
+    ("name", "parts"),
+    [
+        *(pytest.param(n, WALKED[n], marks=[pytest.mark.slow] * (n in LONG), id=n) for n in BASES),
+        *(pytest.param(n, WHOLE[n], marks=pytest.mark.slow, id=f"{n}, whole") for n in WHOLE),
+    ],
 )
-def test_every_key_does_something_or_is_told(name, words):
+def test_every_key_does_something_or_is_told(name, parts, words):
     silent, stuck = [], []
-    for section, path, value, table in walked(name, words):
+    for section, path, value, table in walked(name, words, parts):
         if path[-1] in TEXT or ".".join(map(str, (section, *path))) in SHOWN_ELSEWHERE:
             continue
         tried = []
@@ -238,7 +242,7 @@ def test_the_walk_reaches_every_key_of_every_class_of_the_schema(words):
     reached = set()
     for name in BASES:
         scene = scene_of(BASES[name], words)
-        for section, path, *_ in walked(name, words):
+        for section, path, *_ in walked(name, words, WALKED[name]):
             reached.update(ways(scene, section, path))
     classes = json_schema()["$defs"]
     forms = {name for name in classes if name.endswith("Place")} | {"Bearing", "Toleranced"}

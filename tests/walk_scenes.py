@@ -372,11 +372,11 @@ WALKED = {
     "class S": ("loads",),
     "files": ("loads", "seeds", "reduction"),
     "bearings": ("shaft", "journal", "rolling", "friction"),
-    "warm film": ("journal",),
+    "warm film": ("journal.heat",),
     "cold": ("environment",),
-    "rough film": ("journal",),
-    "elastic film": ("journal",),
-    "turbulent film": ("journal",),
+    "rough film": ("journal.contact",),
+    "elastic film": ("journal.shell",),
+    "turbulent film": ("journal.turbulence",),
     "film in motion": ("journal", "reduction"),
     "periodic loads": ("reduction",),
     "periodic loads, tilted": ("journal.tilt", "journal.alignment", "reduction"),
@@ -384,10 +384,7 @@ WALKED = {
     "tilted film": ("shaft", "journal"),
     "rotor dynamics": ("dynamics",),
     "rotor dynamics, rigid": ("dynamics",),
-    "rolling dynamics": (
-        "dynamics", "friction",
-        *(f"rolling.{key}" for key in ("limits", "rings", "inner_ring", "outer_ring")),
-    ),
+    "rolling dynamics": ("dynamics", "rolling.limits", "rolling.rings"),
     "rolling dynamics, dry": ("dynamics", "friction"),
     "rolling dynamics, proportional": ("dynamics",),
     "rigid and tilted": ("journal",),
@@ -452,6 +449,12 @@ WALKED = {
 }  # fmt: skip
 
 """What is walked over of each scene: sections, or parts of them."""
+
+WHOLE = {
+    **dict.fromkeys(("warm film", "rough film", "elastic film", "turbulent film"), ("journal",)),
+    "rolling dynamics": ("friction", "rolling.inner_ring", "rolling.outer_ring"),
+}
+"""What is walked over, too, in the slow tests: keys that other scenes walk, beside an effect."""
 
 
 def files(folder):
