@@ -71,3 +71,18 @@ def openfast_data() -> Path:
     if not folder or not any(Path(folder).glob("*.outb")):
         pytest.skip("set LOADFLOW_OPENFAST_DATA to a folder with OpenFAST series to run this")
     return Path(folder)
+
+
+@pytest.fixture
+def loadflow(capsys):
+    """The command line in this process: arguments → exit code, standard output, errors."""
+    from loadflow.cli import main
+
+    def call(*arguments):
+        capsys.readouterr()
+        with pytest.raises(SystemExit) as stop:
+            main([str(argument) for argument in arguments])
+        printed = capsys.readouterr()
+        return stop.value.code or 0, printed.out, printed.err
+
+    return call

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from synthetic import case, cube_file
 
-from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.journal import GasMixture, JournalBearing, Lubricant
 from loadflow.reduction import read_parameter_file
@@ -25,20 +24,6 @@ JOURNAL = [
     *("--viscosity", "0.05", "--edge-pressure", "0.5e6", "--mixing-constant", "0.05e6"),
 ]
 ROLLING = ["--balls", "129", "--rows", "2", "--ball-diameter", "0.04", "--pitch-diameter", "1.9"]
-
-
-@pytest.fixture
-def loadflow(capsys):
-    """The command line in this process: arguments → exit code, standard output, errors."""
-
-    def call(*arguments):
-        capsys.readouterr()
-        with pytest.raises(SystemExit) as stop:
-            main([str(argument) for argument in arguments])
-        printed = capsys.readouterr()
-        return stop.value.code or 0, printed.out, printed.err
-
-    return call
 
 
 @pytest.fixture(scope="module")

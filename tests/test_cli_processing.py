@@ -8,7 +8,6 @@ import pandas as pd
 import pytest
 from synthetic import case, cube_file
 
-from loadflow.cli import main
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
@@ -19,20 +18,6 @@ from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.studies.bearing_series import iter_bearings, with_bearings
 from loadflow.studies.reduction_error import for_long_series, solve_films
-
-
-@pytest.fixture
-def loadflow(capsys):
-    """The command line in this process: arguments → exit code, standard output, errors."""
-
-    def call(*arguments):
-        capsys.readouterr()
-        with pytest.raises(SystemExit) as stop:
-            main([str(argument) for argument in arguments])
-        printed = capsys.readouterr()
-        return stop.value.code or 0, printed.out, printed.err
-
-    return call
 
 
 @pytest.fixture(scope="module")
