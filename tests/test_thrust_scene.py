@@ -148,6 +148,7 @@ def test_a_collar_that_tilts_warms_and_moves_follows_the_whole_series(tmp_path):
     assert (table["smallest_film"] < aligned.tree["thrust"]["smallest_film"]).all()
 
 
+@pytest.mark.slow
 def test_the_table_of_tilts_gives_a_scene_the_films_of_its_grid(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", steps=200)
     cool = {"heat": None, "lubricant": {"viscosity": 0.2}, "tilt": True}

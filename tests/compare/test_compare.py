@@ -108,6 +108,7 @@ def test_numbers_are_finite_where_they_are_asked(found):
     assert film.case.startswith("dlc1.1")
 
 
+@pytest.mark.slow
 def test_our_friction_torque_stands_beside_that_of_catalogues(cube, tmp_path, found):
     sized = candidates_of("nrel-5mw")["two-spherical"]
     first = sized["N"]

@@ -269,6 +269,7 @@ def test_the_page_says_the_conclusion_and_draws_front_and_map(found):
     assert len(data["designs"]) == len(found.designs.points)
 
 
+@pytest.mark.slow
 def test_killed_or_not_and_on_one_or_two_processes_it_finds_the_same(cube, found, tmp_path):
     """Half of its parts gone, as of a search that was killed, and two processes instead of one."""
     shutil.copytree(found.path.parent.parent, tmp_path / "search")

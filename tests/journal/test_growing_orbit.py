@@ -85,6 +85,7 @@ def test_half_the_steps_have_the_same_temperatures():
     np.testing.assert_allclose(coarse["minimum_film"], fine["minimum_film"][::2], rtol=3 * CHANGE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("hours", "sample"), [(12.0, r"1\d"), (3.0, r"4\d|5\d")])
 def test_a_shaft_that_grows_into_its_shell_while_it_warms_is_told(hours, sample):
     """After some 20 minutes, whatever the steps; the sample is that of the whole path."""

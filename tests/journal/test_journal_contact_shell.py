@@ -134,6 +134,7 @@ def test_contact_presses_a_shell_open_around():
     assert float(still.shell_deformation) > 0.05 * BEARING.clearance
 
 
+@pytest.mark.slow
 def test_a_shell_whose_growth_is_not_found_is_no_answer(monkeypatch):
     monkeypatch.setattr(shell_contact, "_STEPS", 1)
     coarse = replace(AROUND, grid=(36, 6))
@@ -142,7 +143,9 @@ def test_a_shell_whose_growth_is_not_found_is_no_answer(monkeypatch):
     assert BEARING.equilibrium(FORCE, SPEED, coarse, strict=False).converged
 
 
-@pytest.mark.parametrize("tilt", [{}, pytest.param({"tilt": TILT}, marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.slow
+@pytest.mark.parametrize("tilt", [{}, {"tilt": TILT}])
 def test_stiffness_of_a_shell_pressed_open_around(tilt):
     state = BEARING.equilibrium(FORCE, SPEED, AROUND, **TIGHT, **tilt)
     way = 1e-10 * np.array([[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]])

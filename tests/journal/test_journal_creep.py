@@ -31,7 +31,7 @@ def alone(monkeypatch):
 
 
 @pytest.mark.parametrize("line", [{}, TILTED], ids=["aligned", "tilted"])
-@pytest.mark.parametrize("load", [1e6, 3e6])
+@pytest.mark.parametrize("load", [1e6, pytest.param(3e6, marks=pytest.mark.slow)])
 def test_every_speed_down_to_standstill_is_answered_without_the_grid(load, line, alone):
     for speed in (0.0, 1e-5, 3e-4, 1e-3, 3e-3, 0.03, 0.3):  # each for itself
         state = BEARING.equilibrium((load, 0.2 * load), speed, FILM, strict=False, **line)

@@ -27,6 +27,7 @@ def on_grid(across):
     )
 
 
+@pytest.mark.slow
 def test_the_peak_on_the_grid_comes_to_that_of_the_reduced_film_as_cells_across_are_halved():
     """On 24 cells across, the end of the bearing that is squeezed is not resolved."""
     reduced = path(FILM).max()

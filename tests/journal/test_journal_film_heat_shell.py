@@ -128,7 +128,7 @@ def test_a_shaft_comes_to_rest_where_the_warm_film_in_its_shell_carries_it(shell
 @pytest.mark.parametrize(
     ("speed", "contact", "more"),
     [
-        (SLOW, ROUGH, {}),
+        pytest.param(SLOW, ROUGH, {}, marks=pytest.mark.slow),
         (10.0, ROUGH.as_rough(0.5), {"points": 3, "growth": RingGrowth(0.3)}),
     ],
 )

@@ -53,7 +53,12 @@ def apart(one, other, name):
     return float(np.abs(one / other - 1.0).max())
 
 
-@pytest.mark.parametrize("case", CASES)
+LONG = "shell, contact, tilt"  # on the grid
+
+
+@pytest.mark.parametrize(
+    "case", [pytest.param(one, marks=[pytest.mark.slow] * (one == LONG)) for one in CASES]
+)
 def test_at_rest_a_crowned_bore_is_that_of_the_grid(case):
     shape, film, line = CASES[case]
     bearing = JournalBearing(**SIZE, relief=(CROWN,), **shape)

@@ -470,6 +470,7 @@ def test_a_path_that_rubs_stays_with_more_points_as_long_as_it_asks_for_them(mon
         assert apart(rubs, fine, name) < 1e-2, name
 
 
+@pytest.mark.slow
 def test_a_tilted_end_on_a_yielding_shell_is_within_the_error_of_the_cells():
     grid = SMALL.equilibrium(PRESSED, 0.3, RUBBING, **TILTED)
     few = SMALL.equilibrium(PRESSED, 0.3, replace(RUBBING, rung="reduced"), **TILTED)

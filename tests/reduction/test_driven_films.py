@@ -100,6 +100,7 @@ def test_a_scene_on_the_rung_reduced_closes_its_orbits_there():
     assert least[0] != least[1]
 
 
+@pytest.mark.slow
 def test_the_film_of_each_place_says_its_own_bounds():
     stiff = {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3}
     scene = make_scene(

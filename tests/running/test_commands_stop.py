@@ -210,6 +210,7 @@ def test_a_cluster_that_loses_a_worker_gives_the_bits_of_one_process(tmp_path, c
     assert contents(shared.path / "result.h5") == contents(alone.path / "result.h5")
 
 
+@pytest.mark.slow
 def test_a_lost_scheduler_is_named_and_the_run_goes_on_without_it(tmp_path, cluster):
     scene = small_scene(tmp_path, results=RESULTS)
 

@@ -50,7 +50,14 @@ def write_counts():
     PAGE.write_text(text, encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", validation.names())
+LONG = {"friction_rig", "loads"}
+"""Tables of some ten seconds, which `loadflow validate` holds as well."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [pytest.param(n, marks=[pytest.mark.slow] * (n in LONG)) for n in validation.names()],
+)
 def test_every_printed_number_is_within_its_tolerance(name):
     rows = list(validation.all_checks(name))
     bad = [row for row in rows if row.outcome == "out"]
