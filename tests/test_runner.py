@@ -188,7 +188,7 @@ def with_speed(path, **of_case):
 
 
 def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
-    path = cube_file(tmp_path / "loads.h5")
+    path = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2))
     # so fast that the oil finds no heat balance below its largest temperature
     with_speed(path, **{"dlc1.1_v8_s1": (slice(None), 60.0)})
     warm = {"grid": [24, 8], "heat": {"inlet_temperature": 390.0}}
@@ -198,8 +198,8 @@ def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
     assert part == "dlc1.1_v8_s1, journal"
     assert "no film carries any" in reason
     assert rest == []
-    assert result.tree["journal"].sizes["case"] == 3
-    assert result.tree["rolling"].sizes["case"] == 4
+    assert result.tree["journal"].sizes["case"] == 1
+    assert result.tree["rolling"].sizes["case"] == 2
     assert "no film carries any" in result.report.read_text()
     (verdict,) = (v for v in result.verdicts if v.quantity == "load cases not answered")
     assert (verdict.subject, verdict.value, verdict.answer) == ("journal", 1, "broken")
