@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize.elementwise import find_root
 
 from loadflow.errors import SolverError
-from loadflow.journal.collar_motion import FOLLOWED, CollarMotion
+from loadflow.journal.collar_motion import FOLLOWED, backward, followed, rates
 from loadflow.journal.collar_sides import TRIES, Side
 from loadflow.journal.double_thrust import DoubleThrustBearing
 from loadflow.journal.film_model import Film
@@ -30,7 +30,6 @@ Array = NDArray[np.float64]
 _ROOTS = {"xatol": 0.0, "xrtol": 1e-12, "fatol": 0.0, "frtol": 0.0}
 _CLOSED = 1e-9  # of the larger force
 _WARM = 1e-6  # K left of a balance
-_GUESSES = 8  # how-manyth sample is solved at rest for a first guess of a path
 _MEANS = 64  # samples whose mean friction and flow give the temperatures of a path
 
 
@@ -139,8 +138,8 @@ class CollarSeries:
         """Path of the collar along its axis under loads that change, its mass neglected.
 
         Film forces less damping × velocity are the load; implicit steps of second order from the
-        equilibrium of the first load, Newton over many of them at once. A film carries no
-        tension. Where the surfaces touch, the film stays as thin as the table is. Each row has
+        equilibrium of the first load, each by Newton from where the last ones lead. A film carries
+        no tension. Where the surfaces touch, the film stays as thin as the table is. Each row has
         the one temperature of the mean friction and flow of 64 equilibria of the series. The tilt
         is followed without what its own rate squeezes, and its moment does not act on the shaft.
 
@@ -168,12 +167,11 @@ class CollarSeries:
         rising = times.shape == loads.shape and bool(np.all(np.diff(times) > 0))
         require(rising, "time", time, "s, increasing, one for each load")
         front, back = self._at_mean_temperature(loads, front, back)
-        some = np.unique(np.append(np.arange(0, loads.size, _GUESSES), loads.size - 1))
-        guess, *_ = self._places(front.some(some), back.some(some), loads[some])
-        gap = np.interp(times, times[some], guess)
-        path = CollarMotion(times, front, back, loads, self.collar.play)
-        gap, rate, residual, steps = path.followed(gap, self._ends(front, back))
-        inside = np.ones(loads.size, bool)
+        weights, play = backward(times), self.collar.play
+        ends = self._ends(front, back)
+        place, residual, steps = followed((front, back), loads, play, ends, weights)
+        gap, inside = self._gap(place), np.ones(loads.size, bool)
+        rate = rates(gap, weights)
         return self._told(loads, front, back, gap, residual, steps, inside, rate, FOLLOWED)
 
     # --- inside ----------------------------------------------------------------------------------
@@ -243,11 +241,14 @@ class CollarSeries:
         some = np.unique(np.linspace(0, loads.size - 1, _MEANS).round().astype(int))
         few = [side.some(some) for side in (front, back)]
         warm = np.full(2, heat.inlet_temperature)
+        ends, still = self._ends(few[0], few[1]), np.zeros((3, some.size))
         for _ in range(TRIES):
             held = [replace(side, held=float(one)) for side, one in zip(few, warm)]
-            gap, _, _, inside = self._places(held[0], held[1], loads[some])
+            place, *_ = followed((held[0], held[1]), loads[some], self.collar.play, ends, still)
+            inside = (ends[0] < place) & (place < ends[1]) & (few[0].speed > 0.0)
             if not inside.any():
                 raise SolverError("no film carries any of the loads whose mean friction warms it")
+            gap = self._gap(place)
             asked = []
             for side, at in zip(held, (gap, self.collar.play - gap)):
                 row = side.at(at[inside], np.flatnonzero(inside))

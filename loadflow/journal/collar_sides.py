@@ -53,6 +53,19 @@ class Side:
             self.table.thinnest, self.slope * self.table.row.outer_radius / MOST * (1 + 1e-12)
         )
 
+    @property
+    def wave(self) -> tuple[Array, Array]:
+        """Cosine and sine (n,) of the direction of the tilt, over a pitch of its pads."""
+        turns = self.table.row.pads * (self.direction - self.table.row.row.centres[0])
+        return np.cos(turns), np.sin(turns)
+
+    @property
+    def held_viscosity(self) -> float:
+        """Viscosity where all samples have one temperature, Pa s."""
+        if self.heat is None or self.held is None:
+            return self.viscosity
+        return float(self.heat.liquid.viscosity(self.held))
+
     def some(self, places: NDArray[np.int64]) -> Side:
         """Some samples of it."""
         speed, slope, direction = self.speed[places], self.slope[places], self.direction[places]
@@ -84,8 +97,7 @@ class Side:
             return np.full(speed.size, np.nan), np.full(speed.size, self.viscosity)
         oil = self.heat.liquid
         if self.held is not None:
-            warm = np.full(speed.size, self.held)
-            return warm, np.asarray(oil.viscosity(warm))
+            return np.full(speed.size, self.held), np.full(speed.size, self.held_viscosity)
         rise = self.heat.warming(speed * sums[TORQUE], sums[FLOW])
         rise = rise * (self.heat.carried(sums[FLOW], sums[SIDE_FLOW]) + 0.5)
         warm = np.full(speed.size, self.heat.inlet_temperature)

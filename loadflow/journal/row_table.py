@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from loadflow.errors import InputError, LoadflowError, SolverError
+from loadflow.journal._row_kernels import fill_lands, fill_pads, fill_sums
 from loadflow.journal.cavitation import Guembel
 from loadflow.journal.film_model import Film
 from loadflow.journal.lubricant import Lubricant
@@ -99,14 +100,9 @@ class RowTable:
         direction : array (n,)
             Where the gap grows most, rad.
         """
-        found = _sums_of(self)(np.log(gap)).reshape(gap.size, self._tilted, -1, _SUMS)
-        found = np.einsum("nj,njbq->nbq", self._polynomials(gap, slope), found)
-        turns = self.row.pads * (direction - self.row.row.centres[0])
-        weights = [np.ones_like(gap)]
-        if found.shape[1] > 1:
-            weights += [np.cos(turns), np.sin(turns)]
-        total = np.einsum("bn,nbq->qn", np.array(weights), found)
-        return np.asarray(total * gap ** -_POWERS[:, None])
+        found, scratch = np.empty((_SUMS, gap.size)), np.empty((2, self._tilted))
+        fill_sums(self.parts, self.frame, *_rows(gap, slope, direction), scratch, found)
+        return np.asarray(found * gap ** -_POWERS[:, None])
 
     def pressure(self, gap: Array, slope: Array, direction: Array) -> Array:
         """Largest pressure (n,) of all pads above that of the edges, over η ω, 1."""
@@ -126,12 +122,11 @@ class RowTable:
         share = np.linspace(0.0, 1.0, self.grid[0] + 1)
         share = np.unique(np.concatenate([share, row.row.profile.kinks]))
         depth = row.row.profile.depth(share)
-        thinnest = np.full(gap.size, np.inf)
-        for middle in self._angles(direction, 3).T:
-            along = np.cos(middle[:, None] + (share - 0.5) * row.pad_angle) * slope[:, None]
-            for radius in (row.inner_radius, row.outer_radius):
-                thinnest = np.minimum(thinnest, (depth + radius * along).min(axis=1))
-        return np.asarray(gap + thinnest)
+        across = (share - 0.5) * row.pad_angle
+        found, radii = np.empty(gap.size), np.array([row.inner_radius, row.outer_radius])
+        angle, waves = self._angles(direction, 3), np.array([np.cos(across), np.sin(across)])
+        fill_lands(*_rows(gap, slope, angle), depth, waves, radii, found)
+        return found
 
     def error(self, film: Film, speed: float, most: float = 0.0) -> float:
         """Largest relative error beside films of the whole row on the grid, with their own law.
@@ -175,6 +170,19 @@ class RowTable:
         return np.geomspace(self.thinnest, self.thickest, _GAPS)
 
     @property
+    def frame(self) -> Array:
+        """Numbers by which compiled loops find a place in the table."""
+        row, logs = self.row, np.log(self.gaps)
+        step = float(logs[-1] - logs[0]) / (_GAPS - 1)
+        radii = row.outer_radius, 0.5 * (row.inner_radius + row.outer_radius)
+        return np.array([logs[0], step, *radii, MOST, row.pads, row.row.centres[0]])
+
+    @property
+    def parts(self) -> Array:
+        """Sums over the pads as compiled loops take them, (sums, gaps, 4, tilts, waves)."""
+        return _sums_of(self)
+
+    @property
     def follows(self) -> bool:
         """Whether the pads tilt as the runner does."""
         return self.row.row.tilting
@@ -191,13 +199,6 @@ class RowTable:
     @property
     def _tilted(self) -> int:
         return _TILTS if self.tilts else 1
-
-    def _polynomials(self, gap: Array, slope: Array) -> Array:
-        if not self.tilts:
-            return np.ones((gap.size, 1))
-        share = np.minimum(slope * self.row.outer_radius / gap, MOST)
-        place = 2.0 * _crowded(share) / _crowded(MOST) - 1.0
-        return np.asarray(chebyshev.chebvander(place, _TILTS - 1), float)
 
     def _angles(self, direction: Array, count: int) -> Array:
         """Angles of the middles of the `count` pads nearest to where the film is thinnest, (n, m).
@@ -216,10 +217,11 @@ class RowTable:
     ) -> tuple[Array, Array]:
         """Film in the middle of the pads on the thin side and one of their values, (n, count)."""
         angle = self._angles(direction, count)
-        found = _splines_of(self)[which](np.log(gap)).reshape(gap.size, self._tilted, -1)
-        harmonics = np.einsum("nj,njh->nh", self._polynomials(gap, slope), found)
-        values = np.einsum("nh,nph->np", harmonics, _waves(angle, harmonics.shape[1]))
-        return self.local(gap[:, None], slope[:, None], angle), values
+        part = _parts_of_pads(self)[which]
+        local, found = np.empty(angle.shape), np.empty(angle.shape)
+        scratch = np.empty((2, self._tilted)), np.empty(part.shape[3])
+        fill_pads(part, self.frame, *_rows(gap, slope, angle), *scratch, local, found)
+        return local, found
 
 
 def _crowded(share: float | Array) -> Array:
@@ -343,13 +345,14 @@ def _inverse(count: int) -> Array:
 
 
 @lru_cache(maxsize=16)
-def _sums_of(table: RowTable) -> CubicSpline:
+def _sums_of(table: RowTable) -> Array:
     """Sums over the pads over the logarithm of the gap: polynomials of tilt, a wave of a pitch."""
     row, splines = table.row, _splines_of(table)
     logs, pads = np.log(table.gaps), row.pads
     if not table.tilts:
         values = np.stack([splines[q](logs)[:, :1] for q in range(_SUMS)], axis=-1)
-        return CubicSpline(logs, (pads * values).reshape(logs.size, -1))
+        spline = CubicSpline(logs, (pads * values).reshape(logs.size, -1))
+        return _cubics(spline, (1, 1, _SUMS)).transpose(4, 0, 1, 2, 3).copy()
     nodes = 0.5 * (1.0 + chebyshev.chebpts2(_TILTS)) * _crowded(MOST)
     shares, around = -np.expm1(-nodes), np.arange(_RADIANS) * 2.0 * math.pi / (pads * _RADIANS)
     totals = np.empty((logs.size, _TILTS, _RADIANS, _SUMS))
@@ -363,4 +366,23 @@ def _sums_of(table: RowTable) -> CubicSpline:
                 totals[:, j, k, q] = each.sum(axis=1)
     waves = _waves(pads * around, 3)
     by_wave = np.einsum("hk,jl,glkq->gjhq", np.linalg.pinv(waves), _inverse(_TILTS), totals)
-    return CubicSpline(logs, by_wave.reshape(logs.size, -1))
+    spline = CubicSpline(logs, by_wave.reshape(logs.size, -1))
+    return _cubics(spline, (_TILTS, 3, _SUMS)).transpose(4, 0, 1, 2, 3).copy()
+
+
+@lru_cache(maxsize=16)
+def _parts_of_pads(table: RowTable) -> list[Array]:
+    """Each value of a pad as compiled loops take it, (gaps, 4, tilts, waves)."""
+    return [_cubics(spline, (table._tilted, -1)) for spline in _splines_of(table).values()]
+
+
+def _cubics(spline: CubicSpline, shape: tuple[int, ...]) -> Array:
+    """Cubics (gaps, 4, …) of a spline whose values have been flattened."""
+    found = spline.c.transpose(1, 0, 2)
+    return np.ascontiguousarray(found.reshape(*found.shape[:2], *shape))
+
+
+def _rows(gap: Array, slope: Array, angle: Array) -> tuple[Array, Array, Array]:
+    """Arrays of one kind in memory: loops are compiled once."""
+    one, two, three = (np.ascontiguousarray(each, float) for each in (gap, slope, angle))
+    return one, two, three

@@ -16,6 +16,7 @@ from loadflow.journal import (
     Taper,
     ThrustBearing,
 )
+from loadflow.journal.collar_motion import FOLLOWED, backward, rates
 from loadflow.journal.collar_series import CollarSeries
 from loadflow.journal.row_table import DAMPING, FLOW, FORCE, SIDE_FLOW, TORQUE, RowTable
 
@@ -175,6 +176,43 @@ def test_a_path_has_the_temperatures_of_its_mean_friction():
     constant = series.path(TIMES, 6e5 + 0 * TIMES, 1.2)
     alone = series.equilibrium([6e5], 1.2)
     assert constant.front_temperature[0] == pytest.approx(alone.front_temperature[0], abs=1e-4)
+
+
+def test_each_step_closes_the_balance_of_forces_and_is_as_of_many_steps_in_one_newton():
+    """Warm, tilted, from one row to the other; values are those of the former method."""
+    wave = np.sin(2 * np.pi * 0.35 * TIMES)
+    tilts = 2e-5 * np.column_stack([wave, 0.5 + 0.4 * wave])
+    loads, speeds = 1.5 * SWING * np.sin(2 * np.pi * 0.2 * TIMES), 1.2 + 0.1 * wave
+    series = CollarSeries(COLLAR, WARM, CONTACT, tilts=True)
+    found = series.path(TIMES, loads, speeds, tilts)
+    assert found.converged.all()
+    assert found.residual.max() < FOLLOWED
+    assert found.iterations.max() < 12
+    for name, former in FORMER.items():
+        np.testing.assert_allclose(getattr(found, name)[PINNED], former, rtol=1e-6)
+    weights = backward(TIMES)
+    pressed, slope = [], np.hypot(*tilts.T)
+    turned = np.arctan2(tilts[:, 0], -tilts[:, 1])
+    for temperature, gap, way in (
+        (found.front_temperature[0], found.gap, 0.0),
+        (found.back_temperature[0], COLLAR.play - found.gap, math.pi),
+    ):
+        sums = series._table(LANDS).sums(gap, slope, turned + way)
+        viscosity = WARM.heat.lubricant(temperature).viscosity
+        force = viscosity * (speeds * sums[FORCE] - sums[DAMPING] * rates(gap, weights))
+        pressed.append(np.maximum(force, 0.0))
+    largest = np.maximum(*pressed)
+    assert np.abs(pressed[0] - pressed[1] - loads)[2:].max() < 3e-8 * largest.max()
+
+
+PINNED = [0, 20, 61, 100, 160]
+FORMER = {
+    "gap": [2.96339142e-4, 1.31915226e-4, 9.9468644e-5, 9.61885072e-5, 5.16277494e-4],
+    "minimum_film": [2.77430552e-4, 8.49549105e-5, 8.17620105e-5, 6.80884509e-5, 4.80631393e-5],
+    "maximum_pressure": [123507.018, 1705928.79, 967982.063, 266485.987, 3127081.84],
+    "friction_power": [3690.09898, 5937.3968, 5748.77775, 5468.00749, 8009.57338],
+    "front_temperature": [318.117136] * 5,
+}
 
 
 # --- what has no answer ---------------------------------------------------------------------------
