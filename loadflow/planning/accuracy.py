@@ -9,10 +9,11 @@ gain d ln(answer)/d ln(load) of that answer, which is measured too.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from loadflow.planning.effects import Estimates
+from loadflow.planning.effects import Estimates, estimates
 from loadflow.planning.ladder import gains, ladder, measured
+from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
@@ -49,6 +50,52 @@ def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
         }
         for result in scene.results
     }
+
+
+UNSURE = 2.0
+"""Indicators are good to about this factor."""
+
+
+def surely_small(
+    scene: Scene, effect: Effect, stages: Iterable[str], cases: tuple[Case, ...]
+) -> bool:
+    """Return whether an effect is out for certain: its indicator leaves no doubt.
+
+    Without it all that it moves holds the accuracy asked for, with all else that reaches these
+    answers, even if it were `UNSURE` times as large as its indicator says. Then nothing need be
+    measured, the kernels of the effect among it.
+
+    Parameters
+    ----------
+    scene : Scene
+        With its models.
+    effect : Effect
+        Which; one that is in, or has no indicator, is in doubt.
+    stages : iterable of str
+        Stages that run.
+    cases : tuple of Case
+        Load cases.
+    """
+    if not scene.asks or effect.is_on(scene):
+        return False
+    known = estimates(scene, stages, cases)
+    indicator = known.indicators.get(effect.name, {})
+    larger = {name: UNSURE * size for name, size in indicator.items()}
+    doubtful = replace(known, indicators={**known.indicators, effect.name: larger})
+    moved = [
+        (result, error)
+        for result, found in expected_errors(scene, doubtful).items()
+        for name, error in found.items()
+        if _reaches(scene, result, name, effect)
+    ]
+    return bool(indicator) and all(
+        error is not None and error <= scene.allowed(result) for result, error in moved
+    )
+
+
+def _reaches(scene: Scene, result: str, quantity: str, effect: Effect) -> bool:
+    links = giving(result).results[result](scene)[quantity]
+    return any(link.model == effect.model for link in links)
 
 
 _FEW = {

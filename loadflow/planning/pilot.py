@@ -17,6 +17,7 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
+from loadflow.planning.accuracy import surely_small
 from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import chosen_models, needed_stages
@@ -50,9 +51,9 @@ class Effort:
     duration : float
         Length of a simulated case, s, where the case itself is longer.
     thorough : bool
-        Whether the case is simulated with each effect of the rotor in and out, and effects that the
-        scene has by name are measured, of which nothing is to decide; else these stand by their
-        indicators.
+        Whether the case is simulated with each effect of the rotor in and out, and effects are
+        measured of which nothing is to decide: those that the scene has by name, and those that are
+        out for certain (`surely_small`). Else all these stand by their indicators.
     """
 
     cases: int
@@ -152,11 +153,16 @@ def pilot(
     chosen = chosen_models(scene, cases).scene
     worth = list(_worth_measuring(scene, chosen, cases))
     effort = effort or effort_for(chosen, worth, cases)
+    stages = [name for name in STAGES if name in needed_stages(chosen)]
     effects = [
         one.name
         for one in worth
         if effort.thorough
-        or (one.model != "loads" and (one.is_open(scene) or not one.is_on(scene)))
+        or (
+            one.model != "loads"
+            and (one.is_open(scene) or not one.is_on(scene))
+            and not surely_small(chosen, one, stages, cases)
+        )
     ]
     if not effects:
         return None

@@ -12,10 +12,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.planning.accuracy import surely_small
+from loadflow.planning.effects import switched
 from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages.comparisons import READ, Difference, compare
+from loadflow.stages.comparisons import COMPARED, READ, Difference, compare
+from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import Stage, always
 
 WARN = 0.05
@@ -24,7 +27,11 @@ WARN = 0.05
 
 def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> xr.Dataset:
     """Compare what `cases` gave with the next better model of each stage; dimension ``check``."""
-    found = [row for case in cases for row in compare(scene, case, inputs[case.name])]
+    found = [
+        row
+        for case in cases
+        for row in compare(scene, case, inputs[case.name], _sure(scene, case, inputs[case.name]))
+    ]
     text = ("stage", "result", "quantity", "case", "against")
     return xr.Dataset(
         {
@@ -87,6 +94,13 @@ def warnings(tree: xr.DataTree) -> list[str]:
             f"{row['against'].item()} ({row['case'].item()})",
         )
     return [f"{stage}: {text}" for (stage, _), text in worst.items()]
+
+
+def _sure(scene: Scene, case: Case, parts: Mapping[str, Any]) -> list[str]:
+    """Effects that are out for certain, and are not solved again for what they may change."""
+    stages = [name for name in STAGES if name in parts]
+    able = (one for one in COMPARED.values() if switched(scene, one, True) is not None)
+    return [one.name for one in able if surely_small(scene, one, stages, (case,))]
 
 
 def _allowed(scene: Scene, row: Difference) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -69,12 +69,18 @@ _OF_SAMPLES = ("reduction", "journal", "rolling")
 """Stages whose comparisons take samples of the full series."""
 
 
-def compare(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    """Compare what the stages gave for a case with what the next better models give."""
+def compare(
+    scene: Scene, case: Case, parts: Parts, sure: Collection[str] = ()
+) -> Iterator[Difference]:
+    """Compare what the stages gave for a case with what the next better models give.
+
+    But for effects of which it is `sure` that leaving them out does not matter.
+    """
     # design loads that are chosen by hand are all that their readers see
     designed = scene.reduction.method != "histogram"
     for stage, against_better in COMPARISONS.items():
-        if stage in parts and not (designed and stage in _OF_SAMPLES):
+        settled = stage in COMPARED and COMPARED[stage].name in sure
+        if stage in parts and not settled and not (designed and stage in _OF_SAMPLES):
             yield from against_better(scene, case, parts)
 
 
@@ -382,6 +388,9 @@ COMPARISONS: dict[str, Callable[[Scene, Case, Parts], Iterator[Difference]]] = {
     "rolling": _contacts,
 }
 """For each stage that has better models, how it is compared with them."""
+
+COMPARED = {"rolling": RINGS}
+"""Of these the effect, where it is the one thing that is compared."""
 
 READ = ("loads", "shaft", "reduction", "journal", "thrust", "rolling")
 """Stages that comparisons read."""

@@ -243,9 +243,10 @@ def _lift_off(
 
     That is the first sample of all, or of a start the first in which the surfaces do not touch.
     """
+    if not surely_touching(options, force[:1], speed[:1])[0]:
+        return 0, None  # what carries the others at most is not asked, which takes long
     touching = surely_touching(options, force, speed)
-    if not touching[0]:
-        return 0, None
+    touching[0] = True
     for k in np.flatnonzero(~touching)[:_TRIES]:
         there = equilibria(options, force[k : k + 1], speed[k : k + 1])
         if there.converged[0] and there.minimum_film[0] >= options.contact_film:

@@ -8,6 +8,7 @@ from small_run import small_scene
 
 from loadflow.cube import check_case
 from loadflow.cube.hdf5 import read_whole
+from loadflow.planning.effects import switched
 from loadflow.planning.pilot import Questions
 from loadflow.planning.plan import make_plan
 from loadflow.running import warm_up
@@ -23,7 +24,13 @@ from loadflow.running.warm_up import (
     told_as_called,
     without_own_kernels,
 )
-from loadflow.scene import make_scene
+from loadflow.scene import make_scene, read_scene
+from loadflow.scene.cases import list_cases
+from loadflow.stages.effects.film_heat import HEAT
+from loadflow.stages.film_of_bearing import surely_carried
+from loadflow.stages.shaft import bearing_loads
+
+PIPELINES = Path(__file__).parents[2] / "pipelines"
 
 
 class TwoWorkers:
@@ -122,6 +129,17 @@ def test_made_up_loads_are_those_of_a_load_case(plan):
     check_case(series)
     assert float(series["hub_force"].sel(axis="z").mean()) == pytest.approx(-1.63e6, rel=0.02)
     assert float(series["speed"].mean()) == pytest.approx(1.267, rel=0.05)
+
+
+def test_a_film_surely_carries_some_made_up_loads_with_and_without_heat():
+    """Else the pilot in miniature asks a grid what films carry at most, which compiles for 14 s."""
+    scene = make_plan(read_scene(PIPELINES / "quick_look.toml")).scene
+    for one in (scene, switched(scene, HEAT, False)):
+        series = made_up_loads(one, list_cases(one)[0])
+        shaft = bearing_loads(one, list_cases(one)[0], {"loads": series})
+        for place in one.journal.bearings:
+            force = shaft["force"].sel(bearing=place).transpose("time", "axis").values
+            assert surely_carried(one.journal.at(place), force, series["speed"].values).any()
 
 
 def test_a_process_alone_says_that_it_compiles_when_it_does():

@@ -1,0 +1,72 @@
+"""What an indicator leaves no doubt about is neither measured nor solved again."""
+
+from pathlib import Path
+
+import pytest
+
+from loadflow.planning.accuracy import UNSURE, surely_small
+from loadflow.planning.pilot import pilot
+from loadflow.planning.plan import make_plan, needed_stages
+from loadflow.planning.verification import differences
+from loadflow.scene import read_scene
+from loadflow.stages import comparisons
+from loadflow.stages.effects.rolling import RINGS, SLICED
+from loadflow.stages.registry import STAGES
+
+QUICK = Path(__file__).parents[1] / "pipelines" / "quick_look.toml"
+
+
+class Asked(Exception):
+    """Ends a pilot before it measures."""
+
+
+def asked(scene):
+    def before(questions):
+        raise Asked(*questions.effects)
+
+    with pytest.raises(Asked) as found:
+        pilot(scene, before=before)
+    return found.value.args
+
+
+@pytest.fixture(scope="module")
+def plan():
+    return make_plan(read_scene(QUICK))
+
+
+def with_accuracy(scene, loads, life):
+    return scene.model_copy(
+        update={"accuracy": {**scene.accuracy, "rolling.loads": loads, "rolling.life": life}}
+    )
+
+
+def test_rigid_rings_are_sure_where_twice_their_indicator_is_within_the_accuracy(plan):
+    stages = [name for name in STAGES if name in needed_stages(plan.scene)]
+    sizes = next(one.indicator for one in plan.effects if one.name == RINGS.name)
+    force = plan.errors["rolling.loads"]["maximum force"] + (UNSURE - 1) * sizes["maximum force"]
+    life = plan.errors["rolling.life"]["life"] + (UNSURE - 1) * sizes["life"]
+    for loads, lives, sure in ((1.01, 1.01, True), (0.99, 1.01, False), (1.01, 0.99, False)):
+        scene = with_accuracy(plan.scene, loads * force, lives * life)
+        assert surely_small(scene, RINGS, stages, plan.cases) == sure
+    assert not surely_small(plan.scene, SLICED, stages, plan.cases)  # it is in
+
+
+def test_a_short_run_measures_what_is_in_doubt():
+    """The kernels of elastic rings are not compiled for a question that changes nothing."""
+    scene = read_scene(QUICK)
+    found = asked(scene)
+    assert RINGS.name not in found
+    assert {"motion of the film", "heat of the film", SLICED.name} <= {*found}
+    assert RINGS.name in asked(with_accuracy(scene, 0.25, 0.35))
+
+
+def test_the_check_leaves_what_is_sure_as_it_is(plan, monkeypatch):
+    def again(scene, case, parts):
+        yield comparisons.Difference(RINGS.name, "rolling.life", "life", case.name, "others", 0.1)
+
+    monkeypatch.setitem(comparisons.COMPARISONS, "rolling", again)
+    case, parts = plan.cases[0], {"rolling": None}
+    assert differences(plan.scene, [case], {case.name: parts}).sizes["check"] == 0
+    doubtful = with_accuracy(plan.scene, 0.25, 0.35)
+    found = differences(doubtful, [case], {case.name: parts})
+    assert found["stage"].values.tolist() == [RINGS.name]
