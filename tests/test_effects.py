@@ -300,12 +300,13 @@ def test_a_short_run_has_a_short_pilot():
 
 
 def test_a_run_remembers_its_pilot_and_gives_the_same_on_two_processes(cube, tmp_path):
-    keys = {"journal": {"bearings": ["N2"]}, "accuracy": 0.3}
+    beam = {"sections": [{"outer_diameter": 3.0, "inner_diameter": 2.7}]}
+    keys = {"journal": {"bearings": ["N2"]}, "shaft": {"two_point": {"beam": beam}}}
     one = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
     manifest = json.loads((one.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["pilot"]["sizes"]
     sizes = {effect["name"]: effect["size"] for effect in manifest["effects"]}
-    assert sizes["motion of the film"] == manifest["pilot"]["sizes"]["motion of the film"]
+    assert sizes["tilt of the shaft"] == manifest["pilot"]["sizes"]["tilt of the shaft"]
     again = lf.run(scene_of(cube, **keys), out=tmp_path / "one", report=False)
     after = json.loads((again.path / "manifest.json").read_text(encoding="utf-8"))
     assert after["pilot"] == manifest["pilot"]  # taken up, not measured anew

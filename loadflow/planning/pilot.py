@@ -17,8 +17,8 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from loadflow.errors import LoadflowError, SolverError
-from loadflow.planning.accuracy import surely_small
-from loadflow.planning.effects import EffectVerdict, concerned, estimates, switched
+from loadflow.planning.accuracy import contributions, surely_small
+from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
@@ -26,7 +26,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, Probe, hardest
-from loadflow.stages.registry import STAGES
+from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
 
 SHARE = 0.05
@@ -38,6 +38,10 @@ SOLVED = 1.0
 
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
+
+SURE = 4.0
+"""Error of an answer over that allowed, by an indicator, above which nobody doubts that the effect
+is needed: indicators are good to a factor of two, and were never off by this one."""
 
 
 @dataclass(frozen=True)
@@ -93,12 +97,15 @@ class Questions:
         Length of a simulated case, s, where the case itself is longer.
     cases : tuple of Case
         Those that are looked at.
+    settled : tuple of str
+        Effects of these that are kept whatever their size: whether they can be on is asked alone.
     """
 
     scene: Scene
     effects: tuple[str, ...]
     duration: float
     cases: tuple[Case, ...]
+    settled: tuple[str, ...] = ()
 
     @property
     def models(self) -> tuple[str, ...]:
@@ -119,6 +126,7 @@ def pilot(
     outcomes: Outcomes = in_turn,
     effort: Effort | None = None,
     before: Callable[[Questions], None] = lambda questions: None,
+    brief: bool = False,
 ) -> EffectVerdict | None:
     """Measure the effects of a scene.
 
@@ -135,6 +143,8 @@ def pilot(
         How much is measured; None: what goes with the expected time of the run.
     before : callable
         Called with the questions before they are asked: a runner compiles what they call.
+    brief : bool
+        Whether the least effort asks that alone on which the choice of models hangs.
 
     Returns
     -------
@@ -151,23 +161,24 @@ def pilot(
         return None
     cases = tuple(list_cases(scene))
     chosen = chosen_models(scene, cases).scene
-    worth = list(_worth_measuring(scene, chosen, cases))
+    known = estimates(chosen, _stages(chosen), cases)
+    worth = list(_worth_measuring(scene, chosen, known))
     effort = effort or effort_for(chosen, worth, cases)
-    stages = [name for name in STAGES if name in needed_stages(chosen)]
-    effects = [
-        one.name
-        for one in worth
-        if effort.thorough
-        or (
-            one.model != "loads"
+    if not effort.thorough:
+        worth = [
+            one
+            for one in worth
+            if one.model != "loads"
             and (one.is_open(scene) or not one.is_on(scene))
-            and not surely_small(chosen, one, stages, cases)
-        )
-    ]
+            and not surely_small(chosen, one, _stages(chosen), cases)
+        ]
+    effects, settled = tuple(one.name for one in worth), tuple[str, ...]()
+    if brief and not effort.thorough:
+        effects, settled = _to_decide(scene, chosen, known, worth, cases)
     if not effects:
         return None
     looked_at = hardest(scene, cases)[: effort.cases]
-    questions = Questions(chosen, tuple(effects), effort.duration, tuple(looked_at))
+    questions = Questions(chosen, effects, effort.duration, tuple(looked_at), settled)
     before(questions)
     say("pilot", 0, len(looked_at))
     measured: dict[Case, Found] = {}
@@ -216,17 +227,62 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
     return EFFORTS[-1]
 
 
-def _worth_measuring(scene: Scene, chosen: Scene, cases: tuple[Case, ...]) -> Iterator[Effect]:
+def _stages(scene: Scene) -> list[str]:
+    needed = needed_stages(scene)
+    return [name for name in STAGES if name in needed]
+
+
+def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[Effect]:
     """Effects that can be switched, and whose indicator is not far below what is allowed."""
-    stages = [name for name in STAGES if name in needed_stages(chosen)]
     least = min(scene.allowed(result) for result in scene.results)
-    known = estimates(chosen, stages, cases)
-    for effect in concerned(chosen, stages):
+    for effect in concerned(chosen, _stages(chosen)):
         sizes = known.sizes(effect).values()
         matters = not sizes or max(sizes) > WORTH * least or effect.is_on(scene)
         both = switched(chosen, effect, not effect.is_on(chosen)) is not None
         if matters and both and effect.model in PROBES:
             yield effect
+
+
+def _to_decide(
+    scene: Scene, chosen: Scene, known: Estimates, effects: list[Effect], cases: tuple[Case, ...]
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names of the effects of which something is to decide, and of those among them to keep.
+
+    These are effects that cost nothing, and such as all indicators of their model leave no doubt
+    of; a model with no others is not asked.
+    """
+    sure = {one.name for one in effects if _is_needed(scene, chosen, known, one)}
+    free = {one.name for one in effects if _costs_nothing(chosen, one, cases)}
+    doubtful = {one.model for one in effects if one.name not in sure}
+    asked = tuple(one.name for one in effects if one.model in doubtful)
+    return asked, tuple(name for name in asked if name in sure | free)
+
+
+def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) -> bool:
+    """Whether an answer without the effect, by its indicator, is off by `SURE` times too much."""
+    without = switched(chosen, effect, False)
+    if not effect.is_on(chosen) or without is None:
+        return False
+    return any(
+        part.effect is effect and (part.share or 0.0) > SURE * scene.allowed(result)
+        for result in scene.results
+        for name, links in giving(result).results[result](without).items()
+        for part in contributions(without, result, name, links, known)
+    )
+
+
+def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
+    """Whether the plan has the effect, and expects to take no less time without."""
+    without = switched(chosen, effect, False)
+    if not effect.is_on(chosen) or without is None:
+        return False
+    with_it, left = (
+        [expected_seconds(one, name, cases) for name in needed_stages(one)]
+        for one in (chosen, without)
+    )
+    if None in with_it or None in left:
+        return False
+    return sum(filter(None, with_it)) <= sum(filter(None, left))
 
 
 @dataclass(frozen=True)
@@ -278,7 +334,7 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
         if isinstance(best, str):
             continue
         for effect in ours:
-            if effect.name in refused:
+            if effect.name in refused or effect.name in questions.settled:
                 continue
             on = effect.is_on(scene)
             partner = scene if on else _alone(scene, effect, ours)

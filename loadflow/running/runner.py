@@ -208,7 +208,7 @@ def _run(
     begun = time.perf_counter()
     with told_as_called(where, say):
         pilot_verdict = known_verdict(folder, scene) or pilot(
-            scene, say, where.outcomes, before=compiles
+            scene, say, where.outcomes, before=compiles, brief=True
         )
     if profile:
         profile.add_wall(COMPILING, compiled)

@@ -3,9 +3,13 @@
 import json
 
 import pytest
+from synthetic import cube_file
 
 import loadflow as lf
+from loadflow.planning import pilot as pilots
+from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
+from loadflow.stages.effects.film import MOTION, TILT
 from loadflow.stages.effects.registry import EFFECTS
 
 
@@ -31,3 +35,32 @@ def test_two_processes_measure_the_effects_of_the_rotor_as_one_does(tmp_path, mo
     assert kept[0] == kept[1]
     for key in ("rungs", "shortfalls"):
         assert two[key] == one[key]
+
+
+def test_a_short_run_asks_what_its_models_hang_on_and_no_more(tmp_path, monkeypatch):
+    """A film in motion costs less than one at rest, so that it is followed in any case."""
+    without = []
+
+    def seen(probe, effect, *of):
+        without.append(effect.name)
+        return left_out(probe, effect, *of)
+
+    left_out = pilots._without
+    monkeypatch.setattr(pilots, "_without", seen)
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=500)
+    shaft = {"two_point": {"beam": {"sections": [{"outer_diameter": 3.0, "inner_diameter": 2.7}]}}}
+    loads, wanted = {"files": [str(cube)]}, ["journal.film"]
+    scene = make_scene({"name": "short", "results": wanted, "loads": loads, "shaft": shaft})
+    whole = pilots.pilot(scene)
+    assert {*without} == {*whole.sizes} >= {MOTION.name, TILT.name}
+    without.clear()
+    brief = pilots.pilot(scene, brief=True)
+    assert {*without} == {*brief.sizes}
+    assert TILT.name in without
+    assert MOTION.name not in without
+    kept = [
+        {one.name for one in make_plan(scene, verdict=verdict).effects if one.kept}
+        for verdict in (whole, brief)
+    ]
+    assert MOTION.name in kept[0]
+    assert kept[0] == kept[1]
