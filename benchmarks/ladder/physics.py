@@ -7,7 +7,8 @@ tower and the grid of the wind in the same turbulence, ``scenes`` asks the plan 
 it keeps, ``runs`` makes whole runs of the main job from the coarsest models to all that there is
 and holds their answers against the last. What is measured is kept beside the page in
 ``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
-written anew from there: ``python -m benchmarks.ladder.physics [PART …]``.
+written anew from there: ``python -m benchmarks.ladder.physics [PART …]``. A part that was killed
+goes on where it was: what it has found waits in ``runs/physics``.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from __future__ import annotations
 import json
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
 
 from benchmarks.common import ROOT, arguments, put
@@ -33,6 +34,7 @@ from benchmarks.ladder.physics_sizes import (
     STOP,
     THOROUGH,
     TURBINES,
+    Found,
     joined,
     scene_of,
     sizes,
@@ -44,6 +46,8 @@ from loadflow.scene.scene import Scene
 
 KEPT = ROOT / "docs" / "figures" / "physics.json"
 PAGE = ROOT / "docs" / "physics.md"
+BEGUN = ROOT / "runs" / "physics"
+"""What parts have found that are not finished."""
 
 
 def ten_scenes() -> dict[str, Scene]:
@@ -70,9 +74,12 @@ def ten_scenes() -> dict[str, Scene]:
     }
 
 
-def scenes() -> Iterator[dict[str, Any]]:
+def scenes(known: Found) -> Found:
     """What the plan keeps of each scene after its pilot, and why."""
+    done = {one["scene"] for one in known}
     for name, scene in ten_scenes().items():
+        if name in done:
+            continue
         begun = time.process_time()
         plan = make_plan(scene, [], pilot(scene, effort=THOROUGH))
         print(name, f"{time.process_time() - begun:.0f} s", flush=True)
@@ -92,7 +99,12 @@ def scenes() -> Iterator[dict[str, Any]]:
 # --- the page -------------------------------------------------------------------------------------
 
 
-PARTS = {"sizes": sizes, **BESIDE, "scenes": scenes, "runs": runs}
+PARTS: dict[str, Callable[[Found], Found]] = {
+    "sizes": sizes,
+    **BESIDE,
+    "scenes": scenes,
+    "runs": runs,
+}
 """What is measured."""
 
 SIZES = "## Size over wind speed and turbine"
@@ -114,6 +126,18 @@ of [physics.md](physics.md). What seeds scatter comes on top, the more the fewer
 by `python -m benchmarks.ladder.physics runs`."""
 
 
+def measured(part: str) -> list[dict[str, Any]]:
+    """All that a part finds; what an earlier start of it had found is not measured again."""
+    begun = BEGUN / f"{part}.json"
+    begun.parent.mkdir(parents=True, exist_ok=True)
+    found = json.loads(begun.read_text(encoding="utf-8")) if begun.exists() else []
+    begun.write_text(json.dumps(found), encoding="utf-8")
+    for one in PARTS[part](tuple(found)):
+        found.append(one)
+        begun.write_text(json.dumps(found, indent=1), encoding="utf-8")
+    return found
+
+
 def kept_so_far() -> dict[str, Any]:
     """What was measured, by part."""
     return json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.exists() else {}
@@ -125,10 +149,9 @@ def main() -> None:
     parser.add_argument("parts", nargs="*", choices=[[], *PARTS], help="what to measure anew")
     asked = parser.parse_args().parts
     for part in asked:
-        found: list[dict[str, Any]] = []
-        for one in PARTS[part]():
-            found.append(one)
-            KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
+        found = measured(part)
+        KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
+        (BEGUN / f"{part}.json").unlink()
     kept = kept_so_far()
     kept["sizes"] = joined(kept)
     told = [
