@@ -7,7 +7,8 @@ tower and the grid of the wind in the same turbulence, ``scenes`` asks the plan 
 it keeps, ``runs`` makes whole runs of the main job from the coarsest models to all that there is
 and holds their answers against the last. What is measured is kept beside the page in
 ``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
-written anew from there: ``python -m benchmarks.ladder.physics [PART …]``.
+written anew from there: ``python -m benchmarks.ladder.physics [PART …]``. A part that was killed
+goes on where it was: what it has found waits in ``runs/physics``.
 """
 
 from __future__ import annotations
@@ -15,7 +16,7 @@ from __future__ import annotations
 import json
 import time
 import tomllib
-from collections.abc import Iterator
+from collections.abc import Callable
 from typing import Any
 
 from benchmarks.common import ROOT, arguments, put
@@ -33,6 +34,7 @@ from benchmarks.ladder.physics_sizes import (
     STOP,
     THOROUGH,
     TURBINES,
+    Found,
     joined,
     scene_of,
     sizes,
@@ -44,6 +46,8 @@ from loadflow.scene.scene import Scene
 
 KEPT = ROOT / "docs" / "figures" / "physics.json"
 PAGE = ROOT / "docs" / "physics.md"
+BEGUN = ROOT / "runs" / "physics"
+"""What parts have found that are not finished."""
 
 
 def ten_scenes() -> dict[str, Scene]:
@@ -70,9 +74,12 @@ def ten_scenes() -> dict[str, Scene]:
     }
 
 
-def scenes() -> Iterator[dict[str, Any]]:
+def scenes(known: Found) -> Found:
     """What the plan keeps of each scene after its pilot, and why."""
+    done = {one["scene"] for one in known}
     for name, scene in ten_scenes().items():
+        if name in done:
+            continue
         begun = time.process_time()
         plan = make_plan(scene, [], pilot(scene, effort=THOROUGH))
         print(name, f"{time.process_time() - begun:.0f} s", flush=True)
@@ -92,7 +99,12 @@ def scenes() -> Iterator[dict[str, Any]]:
 # --- the page -------------------------------------------------------------------------------------
 
 
-PARTS = {"sizes": sizes, **BESIDE, "scenes": scenes, "runs": runs}
+PARTS: dict[str, Callable[[Found], Found]] = {
+    "sizes": sizes,
+    **BESIDE,
+    "scenes": scenes,
+    "runs": runs,
+}
 """What is measured."""
 
 SIZES = "## Size over wind speed and turbine"
@@ -104,14 +116,28 @@ nothing by 0.1 %, is not listed. Written by `python -m benchmarks.ladder.physics
 RUNS = """## Whole runs
 
 Time against error of whole runs, pilot and check at the end included: the main job
-(`pipelines/dlc_1_1.toml`, README's command) at 6, 12, 18 and 24 m/s with one of its six seeds, so 4
-of its 66 load cases, with series of full length, by ever better models. *Measured* is the processor
-time of that, kernels compiled; *main job* that of all 66 load cases, by what is done once and what
-each load case took, *one seed* that of 11; *relative* of the main job's. Errors are differences
-from the answers of the last run. All have the same winds, on 11 × 144 points as the plan of the
-main job takes them, as a seed on another grid is another wind: what a finer grid changes is a row
-of [physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. Written
-by `python -m benchmarks.ladder.physics runs`."""
+(`pipelines/dlc_1_1.toml`, README's command) at 4, 8, 12, 16, 20 and 24 m/s with one of its six
+seeds, so 6 of its 66 load cases, with series of full length, by ever better models. *Measured* is
+the processor time of that, kernels compiled; *main job* that of all 66 load cases, by what is done
+once and what each load case took, *one seed* that of 11; *relative* of the main job's. Errors are
+differences from the answers of the best run: damage of N's vertical force, mean over the load
+cases; thinnest film of the collar and of N and N2; largest ε of both; mean friction; largest force
+of a roller; life of M. All have the same winds, on 11 × 144 points as the plan of the main job
+takes them, as a seed on another grid is another wind: what a finer grid changes is a row of
+[physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. Written by
+`python -m benchmarks.ladder.physics runs`."""
+
+
+def measured(part: str) -> list[dict[str, Any]]:
+    """All that a part finds; what an earlier start of it had found is not measured again."""
+    begun = BEGUN / f"{part}.json"
+    begun.parent.mkdir(parents=True, exist_ok=True)
+    found = json.loads(begun.read_text(encoding="utf-8")) if begun.exists() else []
+    begun.write_text(json.dumps(found), encoding="utf-8")
+    for one in PARTS[part](tuple(found)):
+        found.append(one)
+        begun.write_text(json.dumps(found, indent=1), encoding="utf-8")
+    return found
 
 
 def kept_so_far() -> dict[str, Any]:
@@ -125,10 +151,9 @@ def main() -> None:
     parser.add_argument("parts", nargs="*", choices=[[], *PARTS], help="what to measure anew")
     asked = parser.parse_args().parts
     for part in asked:
-        found: list[dict[str, Any]] = []
-        for one in PARTS[part]():
-            found.append(one)
-            KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
+        found = measured(part)
+        KEPT.write_text(json.dumps(kept_so_far() | {part: found}, indent=1), encoding="utf-8")
+        (BEGUN / f"{part}.json").unlink()
     kept = kept_so_far()
     kept["sizes"] = joined(kept)
     told = [

@@ -5,27 +5,41 @@ Each function measures one part, and yields turbine, wind speed and the sizes fo
 
 from __future__ import annotations
 
+import math
 import time
 import tomllib
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from itertools import product
 from typing import Any
+
+import numpy as np
+import xarray as xr
 
 from benchmarks.common import ROOT
 from benchmarks.ladder import wind
-from loadflow.planning.pilot import Effort, pilot
+from loadflow.journal import Growth, Heat
+from loadflow.planning.effects import switched
+from loadflow.planning.pilot import Effort, Questions, measure, pilot
 from loadflow.rotor import simulate_condition
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.candidates import machine
 from loadflow.scene.cases import Case, list_cases, wind_of
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects import film as film_effects
+from loadflow.stages.effects import film_heat
+from loadflow.stages.effects import shaft as shaft_effects
 from loadflow.stages.effects.rotor import LATERAL
+from loadflow.stages.loads import hub_loads
 from loadflow.stages.probes import PROBES, Answers
+from loadflow.stages.shaft import bearing_loads
 from loadflow.turbines import load_turbine
 from loadflow.wind import Field
 
 SPEEDS = (6.0, 12.0, 18.0, 24.0)
 TURBINES = ("windpact-1.5mw", "nrel-5mw", "iea-15mw")
+
+Found = Iterable[dict[str, Any]]
+"""What a part has measured; each takes what is known of it, and yields the rest."""
 
 RESULTS = ["loads.statistics", "journal.film", "rolling.loads", "rolling.life"]
 SHORT = {"duration": 60.0, "seeds": 1}
@@ -42,6 +56,23 @@ TOWER = "sway of the tower, twist of the drivetrain"
 GRIDS = {"grid of the wind finer than 11 × 48": (11, 48), "… than 11 × 144": (11, 144)}
 OVER_ROTOR = "turbulence that differs over the rotor"
 
+FED = 1e5
+"""Pressure of the grooves above that of the bearing ends, Pa."""
+
+GROWTH = Growth(shell_share=film_heat.SHELL_SHARE)
+"""Of shaft and shell of steel, the shell in a cooler housing."""
+
+FREE, TAKING = {"stiffness": "journal"}, {"stiffness": "journal", "takes_moment": True}
+SEATS: dict[str, dict[str, Any]] = {
+    "stiffness of two films": {"supports": (FREE, FREE)},
+    "… which take the moment": {"supports": (TAKING, TAKING)},
+    "… of a ball bearing and a film": {
+        "supports": (FREE, {"stiffness": "rolling", "takes_moment": True}),
+        "ball": "N2",
+    },
+}
+"""Suspensions of which the bearings' own stiffness is fed back to the shaft."""
+
 REFERENCE = ROOT / "pipelines" / "dlc_1_1.toml"
 STOP = ROOT / "pipelines" / "dlc_4_2_shutdown.toml"
 HOLLOW = 0.9
@@ -52,20 +83,23 @@ def scene_of(
     turbine: str,
     film: dict[str, Any] | None = None,
     sized: bool = False,
+    supports: tuple[dict[str, Any], ...] = (),
+    ball: str = "M",
     **keys: Any,
 ) -> Scene:
     """Two journal bearings and a ball bearing for the moment; the shaft as a beam as wide as they.
 
     The journal bearings are those of the main job, their diameter and width in proportion to the
-    rotor's, or `sized`: those of the package for this turbine. `film` are keys of them. The ball
-    bearing is the sized one; its rings are square, with sides of 2.4 balls.
+    rotor's, or `sized`: those of the package for this turbine. `film` are keys of them (None: left
+    out), `supports` those of the beam. The ball bearing is the sized one; its rings are square,
+    with sides of 2.4 balls. Beside the others it stands at M, or takes the place of one of them.
     """
     known = machine(turbine)
     shaft = {place: dict(keys) for place, keys in known["shaft"].items()}
     two = next(place for place in shaft if place != "moment")
     rolling = known["candidates"]["four-point"]
-    ball = rolling["M"]["geometry"]
-    side, mean = 2.4 * ball["ball_diameter"], ball["pitch_diameter"] / 2
+    inner = rolling["M"]["geometry"]
+    side, mean = 2.4 * inner["ball_diameter"], inner["pitch_diameter"] / 2
     around = {
         f"{name}_ring": standing_ring(side, side, mean + sign * side / 2, wall=(0.06, 1.0))
         for name, sign in (("inner", -1), ("outer", 1))
@@ -81,87 +115,158 @@ def scene_of(
         journal = dict.fromkeys(("N", "N2"), own)
         outer = lengths["diameter"]
         section = {"outer_diameter": outer, "inner_diameter": HOLLOW * outer}
-        shaft[two]["beam"] = {"sections": [section]}
-    bearings = {place: journal[place] | (film or {}) for place in ("N", "N2")}
-    bearings["M"] = rolling["M"] | around
+        shaft[two]["beam"] = {"sections": [section], "supports": list(supports)}
+    bearings = {
+        place: {
+            key: value
+            for key, value in (journal[place] | (film or {})).items()
+            if value is not None
+        }
+        for place in ("N", "N2")
+    }
+    bearings[ball] = rolling["M"] | around
+    if ball != "M":
+        del shaft["moment"]
     made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS, "shaft": shaft}
     return Scene.model_validate(made | {"bearings": bearings} | keys)
 
 
-def sizes() -> Iterator[dict[str, Any]]:
+def _left(known: Found) -> Iterator[tuple[str, float]]:
+    """Turbines and wind speeds of which nothing is known yet."""
+    there = {(one["turbine"], one["speed"]) for one in known}
+    yield from (place for place in product(TURBINES, SPEEDS) if place not in there)
+
+
+def sizes(known: Found) -> Found:
     """Measured size of every effect, by turbine and wind speed."""
-    for turbine in TURBINES:
-        for speed in SPEEDS:
-            loads = {"wind_speeds": [speed]} | SHORT
-            scene = scene_of(turbine, loads=loads, accuracy=0.02)
-            begun = time.process_time()
-            verdict = pilot(scene, effort=THOROUGH)
-            print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
-            if verdict is not None:
-                yield {
-                    "turbine": turbine,
-                    "speed": speed,
-                    "sizes": verdict.sizes,
-                    "refused": verdict.refused,
-                }
+    for turbine, speed in _left(known):
+        loads = {"wind_speeds": [speed]} | SHORT
+        scene = scene_of(turbine, loads=loads, accuracy=0.02)
+        begun = time.process_time()
+        verdict = pilot(scene, effort=THOROUGH)
+        print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
+        if verdict is not None:
+            yield {
+                "turbine": turbine,
+                "speed": speed,
+                "sizes": verdict.sizes,
+                "refused": verdict.refused,
+            }
 
 
-def elements() -> Iterator[dict[str, Any]]:
+def elements(known: Found) -> Found:
     """Measured size of profile and tilt of rollers in a sized tapered pair, as `sizes`."""
-    for turbine in TURBINES:
+    for turbine, speed in _left(known):
         bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
         places = {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
-        for speed in SPEEDS:
-            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-            made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
-            scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
-            verdict = pilot(scene, effort=THOROUGH)
-            assert verdict is not None
-            rollers = {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}
-            yield {"turbine": turbine, "speed": speed, "sizes": rollers}
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
+        scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
+        verdict = pilot(scene, effort=THOROUGH)
+        assert verdict is not None
+        rollers = {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}
+        yield {"turbine": turbine, "speed": speed, "sizes": rollers}
 
 
-def films() -> Iterator[dict[str, Any]]:
+def films(known: Found) -> Found:
     """Measured size of contact, shell and turbulence of films that have them, as `sizes`."""
     stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
-    for turbine in TURBINES:
+    for turbine, speed in _left(known):
         wall = 0.1 * scene_of(turbine).journal.geometry.diameter
         shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
         film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
-        for speed in SPEEDS:
-            loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-            results = ["journal.film"]
-            scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
-            verdict = pilot(scene, effort=THOROUGH)
-            assert verdict is not None
-            ours = {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}
-            print(turbine, speed, ours, flush=True)
-            yield {"turbine": turbine, "speed": speed, "sizes": ours}
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        results = ["journal.film"]
+        scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
+        verdict = pilot(scene, effort=THOROUGH)
+        assert verdict is not None
+        ours = {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}
+        print(turbine, speed, ours, flush=True)
+        yield {"turbine": turbine, "speed": speed, "sizes": ours}
 
 
-def lateral() -> Iterator[dict[str, Any]]:
+def oil(known: Found) -> Found:
+    """Measured size of supply and growth of films that have them, as `sizes`.
+
+    Two axial grooves of 0.7 of the width at the sides, at 0.1 MPa above the bearing ends; shaft and
+    shell of steel, the shell with 0.9 of the rise of the film above 20 °C, at which the clearance
+    is that of the scene.
+    """
+    effects = (film_effects.SUPPLY, film_heat.GROWTH)
+    for turbine, speed in _left(known):
+        journal = scene_of(turbine).journal
+        length, pressure = 0.7 * journal.geometry.width, journal.edge_pressure + FED
+        grooves = [
+            {"angle": angle, "length": length, "pressure": pressure}
+            for angle in (math.pi / 2, -math.pi / 2)
+        ]
+        heat = Heat(
+            film_heat.oil_of(journal.lubricant), growth=Growth(shell_share=film_heat.SHELL_SHARE)
+        )
+        film = {"supply": {"grooves": grooves}, "heat": heat, "lubricant": None}
+        film |= {"motion": "transient", "tilt": True, "rung": "reduced"}
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        results = ["journal.film"]
+        scene = scene_of(turbine, film=film, loads=loads, accuracy="given", results=results)
+        cases = tuple(list_cases(scene))
+        names = tuple(effect.name for effect in effects)
+        found = measure(Questions(scene, names, SHORT["duration"], cases), cases[0])
+        print(turbine, speed, found, flush=True)
+        yield {"turbine": turbine, "speed": speed, "sizes": found.sizes}
+
+
+def fed_back(known: Found) -> Found:
+    """What is lost where the shaft stands on rigid bearings, not on the stiffness of its own.
+
+    Loads, and films around the shaft that lies so; each suspension of `SEATS` alone.
+    """
+    for turbine, speed in _left(known):
+        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+        sizes: dict[str, dict[str, float]] = {}
+        hub = None
+        for name, seat in SEATS.items():
+            film = {"motion": "quasi-static", "tilt": True, "rung": "reduced"}
+            scene = scene_of(turbine, film=film, loads=loads, accuracy="given", **seat)
+            rigid = switched(scene, shaft_effects.STIFFNESS, False)
+            assert rigid is not None
+            (case,) = list_cases(scene)
+            hub = hub_loads(scene, case, {}) if hub is None else hub
+            whole, without = (_seated(one, case, hub) for one in (scene, rigid))
+            sizes[name] = _change(without, whole)
+        print(turbine, speed, sizes, flush=True)
+        yield {"turbine": turbine, "speed": speed, "sizes": sizes}
+
+
+def _seated(scene: Scene, case: Case, hub: xr.Dataset) -> Answers:
+    """Largest radial forces, and films around the shaft that lies as its bearings let it."""
+    loads = bearing_loads(scene, case, {"loads": hub})
+    radial = np.hypot(*loads["force"].sel(axis=["y", "z"]).transpose("axis", ...)).max("time")
+    largest = {(str(one["bearing"].values), "bearing load max"): float(one) for one in radial}
+    return largest | PROBES["journal"].answers(scene, case, {"loads": hub, "shaft": loads})
+
+
+def lateral(known: Found) -> Found:
     """What is lost without coherence of v and w: of means over `REALISED` seeds of 120 s.
 
     With it a seed is another wind, so that a pilot, which has one, cannot tell.
     """
-    for turbine in TURBINES:
-        for speed in SPEEDS:
-            known, without = (
-                _mean(
-                    PROBES["loads"].answers(scene, case, {})
-                    for scene in [_realised(turbine, speed, lateral=kind)]
-                    for case in list_cases(scene)
-                )
-                for kind in ("coherent", "independent")
+    for turbine, speed in _left(known):
+        whole, without = (
+            _mean(
+                PROBES["loads"].answers(scene, case, {})
+                for scene in [_realised(turbine, speed, lateral=kind)]
+                for case in list_cases(scene)
             )
-            yield {
-                "turbine": turbine,
-                "speed": speed,
-                "sizes": {LATERAL.name: _change(without, known)},
-            }
+            for kind in ("coherent", "independent")
+        )
+        yield {
+            "turbine": turbine,
+            "speed": speed,
+            "sizes": {LATERAL.name: _change(without, whole)},
+        }
 
 
-def rotors() -> Iterator[dict[str, Any]]:
+def rotors(known: Found) -> Found:
     """What is lost without blades and tower that give way, and on a coarser grid of the wind.
 
     Of means over `REALISED` seeds of 120 s, all in the same turbulence, made on 21 × 144 points.
@@ -174,26 +279,23 @@ def rotors() -> Iterator[dict[str, Any]]:
         "hub": ("tower", None),
         **{name: ("tower", grid) for name, grid in GRIDS.items()},
     }
-    for turbine in TURBINES:
-        for speed in SPEEDS:
-            scene = _realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
-            found: dict[str, list[Answers]] = {name: [] for name in variants}
-            for case in list_cases(scene):
-                field = wind.turbulence(scene, case, wind.FINEST, "fast")
-                for name, (rung, grid) in variants.items():
-                    met = (
-                        wind.everywhere(field, None) if grid is None else wind.thinned(field, grid)
-                    )
-                    found[name].append(_in_field(scene, case, met, rung))
-            mean = {name: _mean(answers) for name, answers in found.items()}
-            sizes = {
-                BLADES: _change(mean["rigid"], mean["no tower"]),
-                TOWER: _change(mean["no tower"], mean["whole"]),
-                OVER_ROTOR: _change(mean["hub"], mean["whole"]),
-                **{name: _change(mean[name], mean["whole"]) for name in GRIDS},
-            }
-            print(turbine, speed, sizes, flush=True)
-            yield {"turbine": turbine, "speed": speed, "sizes": sizes}
+    for turbine, speed in _left(known):
+        scene = _realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
+        found: dict[str, list[Answers]] = {name: [] for name in variants}
+        for case in list_cases(scene):
+            field = wind.turbulence(scene, case, wind.FINEST, "fast")
+            for name, (rung, grid) in variants.items():
+                met = wind.everywhere(field, None) if grid is None else wind.thinned(field, grid)
+                found[name].append(_in_field(scene, case, met, rung))
+        mean = {name: _mean(answers) for name, answers in found.items()}
+        sizes = {
+            BLADES: _change(mean["rigid"], mean["no tower"]),
+            TOWER: _change(mean["no tower"], mean["whole"]),
+            OVER_ROTOR: _change(mean["hub"], mean["whole"]),
+            **{name: _change(mean[name], mean["whole"]) for name in GRIDS},
+        }
+        print(turbine, speed, sizes, flush=True)
+        yield {"turbine": turbine, "speed": speed, "sizes": sizes}
 
 
 def _realised(turbine: str, speed: float, **loads: Any) -> Scene:
@@ -233,7 +335,14 @@ def _change(without: Answers, known: Answers) -> dict[str, float]:
     return sizes
 
 
-BESIDE = {"elements": elements, "films": films, "lateral": lateral, "rotors": rotors}
+BESIDE: dict[str, Callable[[Found], Found]] = {
+    "elements": elements,
+    "films": films,
+    "oil": oil,
+    "fed_back": fed_back,
+    "lateral": lateral,
+    "rotors": rotors,
+}
 """What scenes of `sizes` do not have, and what a pilot cannot tell."""
 
 

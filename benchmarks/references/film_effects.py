@@ -25,10 +25,13 @@ from loadflow.journal import (
     Contact,
     Film,
     GasMixture,
+    Groove,
+    Growth,
     Heat,
     JournalBearing,
     LocalShell,
     Lubricant,
+    Supply,
     Turbulence,
 )
 from loadflow.quantities import percent
@@ -71,8 +74,23 @@ COMBINED: dict[str, tuple[dict[str, Any], bool, float]] = {
 }
 """By name: fields of the film, whether the shaft tilts, and the factor on the load."""
 
-ALONE = ("nothing", "tilt", "contact", "shell", "turbulence everywhere")
-"""Those of them with one effect, after that without any."""
+WARM = Heat("iso-vg-68", inlet_temperature=318.15)
+GROOVES = tuple(Groove(angle, length=1.575, pressure=0.6e6) for angle in (np.pi / 2, -np.pi / 2))
+ALONE: dict[str, tuple[str, ...]] = {
+    "nothing": ("tilt", "contact", "shell", "turbulence everywhere", "supply"),
+    "heat": ("heat, growth",),
+}
+"""Effects whose cost is told, by that without which their time is told."""
+
+COSTED = COMBINED | {
+    "supply": ({"supply": Supply(GROOVES)}, False, 1.0),
+    "heat": ({"lubricant": None, "heat": WARM}, False, 1.0),
+    "heat, growth": (
+        {"lubricant": None, "heat": replace(WARM, growth=Growth(shell_share=0.9))},
+        False,
+        1.0,
+    ),
+}
 
 
 def path(film: Film, tilts: bool, factor: float, steps: int) -> xr.Dataset:
@@ -111,16 +129,20 @@ def costs() -> None:
     tilt = UNIT * np.column_stack([rng.uniform(-0.2, 0.2, RESTS), rng.uniform(-0.1, 0.1, RESTS)])
     print(head("on", "rung", "at rest", "in motion"))
     for rung, steps in (("reduced", 200), ("grid", 40)):
-        plain: list[float] = []
-        for name in ALONE:
-            fields, tilts, factor = COMBINED[name]
+
+        def times(name: str, rung: str = rung, steps: int = steps) -> list[float]:
+            fields, tilts, factor = COSTED[name]
             film = replace(FILM, rung=rung, **fields)
             line = {"tilt": tilt} if tilts else {}
             still = partial(BEARING.equilibrium, force, speed, film, strict=False, **line)
             moving = partial(path, film, tilts, factor, steps)
-            seconds = [timed(run, 3, warm=True)[1] for run in (still, moving)]
-            plain = plain or seconds
-            print(row(name, rung, *(f"{a / b:.2g}" for a, b in zip(seconds, plain))), flush=True)
+            return [timed(run, 3, warm=True)[1] for run in (still, moving)]
+
+        for without, effects in ALONE.items():
+            plain = times(without)
+            for name in effects:
+                told = (f"{a / b:.2g}" for a, b in zip(times(name), plain))
+                print(row(f"{name} / {without}", rung, *told), flush=True)
 
 
 RESTS = 16

@@ -48,7 +48,8 @@ def film_model(
                 raise SolverError(
                     f"no film carries {np.hypot(*force[k, 1:]):.4g} N at {speed[k]:.4g} rad/s"
                 )
-            moved = np.concatenate([answer.eccentricity, answer.tilt], axis=1)[:, :size]
+            parts = (answer.eccentricity, answer.tilt) if tilting else (answer.eccentricity,)
+            moved = np.concatenate(parts, axis=1)
             last[new], motion[new] = load[new], moved @ turn
             stiffness[new] = turn.T @ answer.stiffness @ turn
         return motion.copy(), stiffness.copy()

@@ -65,9 +65,9 @@ def slopes(model, force, moment, size):
     return model(force, moment)[0], np.stack(columns, axis=-1)
 
 
-@pytest.mark.parametrize("tilting", [True, False])
-def test_the_stiffness_of_a_film_is_the_slope_of_its_motion(tilting):
-    journal = scene_of([], journal={"tilt": True, "grid": [36, 8]}).journal
+@pytest.mark.parametrize(("tilting", "rung"), [(True, "grid"), (False, "grid"), (False, "reduced")])
+def test_the_stiffness_of_a_film_is_the_slope_of_its_motion(tilting, rung):
+    journal = scene_of([], journal={"tilt": True, "grid": [36, 8], "rung": rung}).journal
     model = film_model(journal, np.array([1.2, 1.3]), tilting=tilting)
     size = 4 if tilting else 2
     motion, soft = slopes(model, FORCE, MOMENT, size)

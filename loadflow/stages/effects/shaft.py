@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.situation import Situation
@@ -12,12 +14,15 @@ _SUSPENSIONS = ("two_point", "three_point", "integrated", "direct_drive", "momen
 _KEYS = tuple(f"shaft.{name}" for name in _SUSPENSIONS)
 
 
-def _determinate(at: Situation) -> Sizes:
-    """Nothing: the loads of bearings that turn freely with the shaft follow from equilibrium.
+def _moments(at: Situation) -> Sizes:
+    """What moments in the bearings change of the largest radial force, if these are rigid.
 
-    How a bent shaft tilts in its films is counted there, as tilt.
+    Nothing where bearings turn freely with the shaft: their loads follow from equilibrium. A film
+    that takes a moment hardly resists it, a rolling bearing nearly as a rigid one. How a bent
+    shaft tilts in its films is counted there, as tilt.
     """
-    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), 0.0)
+    most = max(float(np.max(load.held)) for load in at.bearings.values())
+    return dict.fromkeys(("bearing load max", "radial force max", "bearing force DEL"), most)
 
 
 def _rigid(scene: Scene, on: bool) -> Scene | None:
@@ -38,7 +43,7 @@ ELASTIC = Effect(
     keys=_KEYS,
     is_on=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
     switched=_rigid,
-    indicator=_determinate,
+    indicator=_moments,
     out="no beam in the suspension: its bearings are free to tilt, and loads follow from balance",
     needs="a table beam in the suspension",
     concerns=lambda scene: bool(scene.shaft.concepts),
@@ -62,7 +67,7 @@ STIFFNESS = Effect(
     keys=_KEYS,
     is_on=lambda scene: bool(scene.shaft.coupled),
     switched=_given,
-    indicator=_determinate,
+    indicator=_moments,
     out="no support of the shaft takes its stiffness from a bearing",
     needs='`supports` of the beam with stiffness = "journal" or "rolling"',
     concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),

@@ -63,6 +63,9 @@ class BearingLoad:
         Largest deviation of the force along the shaft from its mean, N.
     slope : ndarray, shape (n,)
         Largest slope of the bent shaft where a thrust collar stands, rad; 0 elsewhere.
+    held : ndarray, shape (n,)
+        Largest radial force with bearings that are rigid where they take a moment, over that with
+        bearings that take none, less 1; 0 where the suspension is statically determinate.
     """
 
     force: Floats
@@ -71,6 +74,7 @@ class BearingLoad:
     turn: Floats
     surge: Floats
     slope: Floats
+    held: Floats
 
     @property
     def radial(self) -> Floats:
@@ -251,7 +255,7 @@ def _on_bearings(
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
-    slopes = _slopes(scene, tilt, force, moment)
+    slopes, held = (of(scene, tilt, force, moment) for of in (_slopes, _held))
     every = [
         bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
         for concept in scene.shaft.concepts
@@ -266,8 +270,8 @@ def _on_bearings(
             push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))
             away = (np.hypot(*to_film(v - v[0]).T).max() for v in (push, turn))
             along = np.abs(push[:, 0] - push[0, 0]).max()
-            slope = slopes.get(str(name), 0.0)
-            found[str(name)] = push[0], turn[0], *map(np.asarray, (*away, along, slope))
+            own = (of.get(str(name), 0.0) for of in (slopes, held))
+            found[str(name)] = push[0], turn[0], *map(np.asarray, (*away, along, *own))
     return found
 
 
@@ -284,6 +288,25 @@ def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[st
         bent = replace(concept, beam=beam.on_rigid_bearings())
         loads = bearing_loads(bent, force, moment, tilt=tilt).sel(bearing=name)
         found[name] = float(np.hypot(*to_film(loads["tilt"].transpose(..., "axis").values).T).max())
+    return found
+
+
+def _held(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
+    """What bearings that take a moment change of the largest radial force, if they are rigid."""
+    found: dict[str, float] = {}
+    for concept in scene.shaft.concepts:
+        if concept.beam is None or not any(one.takes_moment for one in concept.beam.supports):
+            continue
+        rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
+        with_moment, without = (
+            np.hypot(*loads["force"].sel(axis=["y", "z"]).transpose("axis", "bearing", ...).values)
+            for loads in (
+                bearing_loads(one, force, moment, tilt=tilt)
+                for one in (rigid, replace(concept, beam=None))
+            )
+        )
+        largest, free = with_moment.max(axis=1), without.max(axis=1)
+        found |= dict(zip(concept.bearings, np.abs(largest / free - 1.0).tolist()))
     return found
 
 
