@@ -284,5 +284,10 @@ SUPPLY = Effect(
     needs="a table journal.supply",
     concerns=lambda scene: scene.journal.supply is not None,
     rungs=("grid", "reduced"),
-    partly=(("reduced", "rectangular grooves and pockets of given pressure, each on one segment of the bore, beside no pads and no shell"),),
+    partly=(
+        (
+            "reduced",
+            "rectangular ones of given pressure, each on one segment, beside no pads or shell",
+        ),
+    ),
 )
