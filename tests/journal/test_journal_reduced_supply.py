@@ -8,14 +8,12 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.journal import (
     Capillary,
-    Contact,
     Film,
     GasMixture,
     Groove,
     Guembel,
     Heat,
     JournalBearing,
-    Lobes,
     LocalShell,
     Lubricant,
     MassConserving,
@@ -26,7 +24,6 @@ from loadflow.journal import (
     Turbulence,
 )
 from loadflow.journal.models.width_modes import half_width_nodes, stretched_width, whole_width
-from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING, SPEED, LOAD = JournalBearing(**SIZE), 100.0, np.array([6e3, 1e3])
@@ -175,7 +172,6 @@ def test_without_marks_stretches_are_the_points_of_the_whole_width(whole):
         np.testing.assert_allclose(getattr(one, name), getattr(other, name), atol=1e-12)
 
 
-ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 REFUSED = {
     "pump": ({"supply": Supply((Groove(1.0, length=0.05),), Pump((0.0,), (2e5,)))}, "pump"),
     "restrictor": (
@@ -188,7 +184,6 @@ REFUSED = {
         r"grooves\[0\].shape",
     ),
     "shell": ({"shell": LocalShell(1e-12)}, "shell"),
-    "contact": ({"contact": ROUGH}, "contact"),
 }  # fmt: skip
 
 
@@ -197,7 +192,3 @@ def test_what_few_points_do_not_hold_is_refused_by_name(name):
     words, named = REFUSED[name]
     with pytest.raises(InputError, match=rf'{named} = .* not allowed: .* on rung = "reduced"'):
         BEARING.equilibrium(LOAD, SPEED, replace(REDUCED, **words))
-    if name == "shell":
-        lobed = JournalBearing(**SIZE | {"shape": Lobes(3)})
-        with pytest.raises(InputError, match=r'shape = .* on rung = "reduced"'):
-            lobed.equilibrium(LOAD, SPEED, REDUCED)

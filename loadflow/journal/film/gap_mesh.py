@@ -97,7 +97,7 @@ def shaped_mesh(
         edges, segment, groove = _around_segments(segments, turns, around)
     else:
         start = turns[0] if turns.size else 0.0
-        edges = _between(start, start + _TURN, turns, around)
+        edges = between_marks(start, start + _TURN, turns, around)
         segment = np.zeros(edges.size - 1, dtype=np.int64)
         groove = np.zeros(edges.size - 1, dtype=bool)
     away = (edges[:, None] - turns[None, :] + np.pi) % _TURN - np.pi
@@ -188,14 +188,14 @@ def _around_segments(
             edges.append(inner)
             segment += [number - 1, number - 1, number]
             groove += [True] * 3
-        own = _between(part.start, part.end, turns, counts[number])
+        own = between_marks(part.start, part.end, turns, counts[number])
         edges.append(own[1:])
         segment += [number] * (own.size - 1)
         groove += [False] * (own.size - 1)
     return np.concatenate(edges), np.array(segment), np.array(groove)
 
 
-def _between(start: float, end: float, marks: Array, cells: int) -> Array:
+def between_marks(start: float, end: float, marks: Array, cells: int) -> Array:
     """About `cells` even cells from `start` to `end`, with edges on the `marks` between them."""
     inside = start + (marks - start) % _TURN
     inside = inside[(inside > start + 1e-9) & (inside < end - 1e-9)]

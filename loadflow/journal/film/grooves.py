@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.shapes import Segment
 from loadflow.journal.supply import Groove, Supply
 
 Array = NDArray[np.float64]
@@ -41,6 +42,17 @@ def groove_marks(grooves: tuple[Groove, ...], count: int, radius: float) -> tupl
     turns = [g.angle + _arc(g, count, radius) * _sides(g) for g in grooves]
     ends = [(g.axial + g.length * _sides(g)) / radius for g in grooves if g.length is not None]
     return np.concatenate([[], *turns]), np.concatenate([[], *ends])
+
+
+def on_one_segment(
+    groove: Groove, segments: tuple[Segment, ...], count: int, radius: float
+) -> bool:
+    """Whether all of a groove lies on one segment of a shaped bore, or the bore has none."""
+    first, *_, last = groove_marks((groove,), count, radius)[0].tolist()
+    return not segments or any(
+        (first - part.start) % (2 * np.pi) + last - first <= part.end - part.start
+        for part in segments
+    )
 
 
 def groove_numbers(

@@ -204,8 +204,8 @@ def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
     """
     share, ring = 1.0, film.ring
     for i in range(ring.cos.size):
-        if ring.groove[i]:
-            continue
+        if ring.back[i] == 0.0:
+            continue  # a groove between segments
         for k in range(film.nodes.z.size):
             z = film.nodes.z[k]
             closes = (dx + tilt_y * z) * ring.cos[i] + (dy - tilt_x * z) * ring.sin[i]
@@ -270,7 +270,7 @@ def touch(film, work, q):
 
 @once
 def _touch_shell(film, work, q):
-    """∫ p_a and `work.touch` on a shell that is pressed open, or on segments of a shaped bore.
+    """∫ p_a and `work.touch` on a shell that is pressed open, in a shaped bore, or beside grooves.
 
     Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
     `work.pressed`, too.
@@ -292,6 +292,8 @@ def _touch_shell(film, work, q):
         for i in range(nx):
             right = i + 1 if i + 1 < nx else 0
             here, there = there, give * _across(yielding.values[g], p[right], ring.p_edge)
+            if yielding.grooves[g, i]:
+                continue
             step = ring.apart[i]
             wide, ex, ey = depth + ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
             edge = wide - ex * ring.cos[i] - ey * ring.sin[i] + here

@@ -78,10 +78,10 @@ def balance(film, work, wedge, rate):
         put(sum_y, at, fy * own)
     for k in range(m):
         largest = max(largest, row[k])
+    if film.held.on:  # first: what a whole column feeds is what it is missing
+        largest = hold_points(film, work, 0, 1, rate)
     if ring.shaped:
         largest = _hold_grooves(film, columns, 0, 1)
-    if film.held.on:
-        largest = hold_points(film, work, 0, 1, rate)
     unit, z = ring.area, film.nodes.z
     work.load[:] = 0.0
     for k in range(m):

@@ -53,7 +53,7 @@ def summarise(film, work, q, wedge, rate, row):
             flow, rise = take(cube, here) * slope * across, take(p, right) - take(p, here)
             lost = lost + weights * flow * slope
             lost = lost + own * take(flows, here) * rise * rise * (1.0 / ring.apart[i])
-            if ring.groove[i] and ring.shaped:  # in a supply's there is oil
+            if ring.back[i] == 0.0:  # a groove between segments; in a supply's there is oil
                 continue
             held = weights * take(mean, here) * step
             liquid_at = liquid_at + held * (take(fill, here) * take(lanes.inner, at) + ends)
@@ -231,13 +231,14 @@ def _uneven(film, work):
 
 @once
 def fed(film, work, wedge):
-    """Flow from the grooves into the film, less what flows back, after `place`."""
+    """Flow from grooves between segments into the film, less what flows back, after `place`."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     weights, p, fill, face = film.nodes.weights, work.state[P], work.state[FILL], work.face
-    total = 0.0
+    total, groove, whole = 0.0, film.ring.groove, film.held.columns
     for i in range(nx):
         right = i + 1 if i + 1 < nx else 0
-        if film.ring.groove[i] == film.ring.groove[right]:
+        feeds = groove[i] and not whole[i]  # a supply counts its flow by itself
+        if feeds == (groove[right] and not whole[right]):
             continue
         upwind = i if wedge > 0 else right
         flow = 0.0
@@ -249,5 +250,5 @@ def fed(film, work, wedge):
             gap = film.ring.base_face[i] - work.centre[0, k] * film.ring.cos_face[i]
             gap -= work.centre[1, k] * film.ring.sin_face[i]
             flow += weights[k] * wedge * film.ring.edge_fill * gap
-        total += flow if film.ring.groove[i] else -flow
+        total += flow if feeds else -flow
     return total

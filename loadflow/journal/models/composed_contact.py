@@ -13,11 +13,14 @@ from loadflow.journal.film._rough_kernels import NO_CONTACT
 from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_rough import RoughGap, Roughness
+from loadflow.journal.film.grooves import groove_numbers
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed_film import RIGID, Rough, Yielding
+from loadflow.journal.models.composed_supply import parted_at
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import at_places
+from loadflow.journal.supply import Supply
 from loadflow.tribology.kernels import pressure_integral
 
 Array = NDArray[np.float64]
@@ -85,13 +88,14 @@ def yielding_of(
 
     `points` across carry the pressure.
     """
-    contact = options.contact
-    if contact is None or not (give or bearing.shape.segments or bearing.relief):
+    contact, supply = options.contact, options.supply
+    if contact is None or not (give or bearing.shape.segments or bearing.relief or supply):
         return RIGID
     half = bearing.width / bearing.diameter
-    x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)
-    if not whole:
-        x, w = 0.5 * (1.0 + x), w  # both halves are alike
+    x, w = _lines(supply, bearing, whole)
+    values = at_places(points, whole, x) if give else np.zeros((x.size, points))
+    angle, around = np.arctan2(ring.sin, ring.cos), options.cells[0]
+    held = groove_numbers(angle, half * x, half, supply, around, bearing.radius).T >= 0
     first, step, table = _yielding_gap(contact, bearing.clearance, give)
     places = max(int(np.ceil(2.0 * np.pi / options.cells[0] / _AROUND)), _LEAST_AROUND)
     share, part = np.polynomial.legendre.leggauss(places)
@@ -99,10 +103,28 @@ def yielding_of(
     turns = np.outer(ring.apart, share) - ring.back[:, None]
     at = (ring.cos_face + 1j * ring.sin_face)[:, None] * np.exp(1j * turns)
     return Yielding(
-        True, first, step, table, at_places(points, whole, x), half * x, half * w,
-        depth_at(bearing, half * x), share, part, at.real.copy(), at.imag.copy(),
+        True, first, step, table, values, half * x, half * w, depth_at(bearing, half * x),
+        share, part, at.real.copy(), at.imag.copy(), held & np.roll(held, -1, axis=1),
         contact.asperities.scale * bearing.radius**2,
     )  # fmt: skip
+
+
+def _lines(supply: Supply | None, bearing: JournalGeometry, whole: bool) -> tuple[Array, Array]:
+    """Places across at which asperities are asked, shares of the half width, and their weights.
+
+    Where grooves end, one rule of Gauss ends and another begins.
+    """
+    ends = () if supply is None else parted_at(supply, bearing)
+    if whole and not ends:
+        return np.polynomial.legendre.leggauss(_LINES)
+    x, w = np.polynomial.legendre.leggauss(_LINES // 2)
+    edges = np.array([0.0, *ends, 1.0])
+    middles, halves = 0.5 * (edges[1:] + edges[:-1]), 0.5 * np.diff(edges)
+    places = (middles[:, None] + halves[:, None] * x).ravel()
+    weights = 2.0 * np.outer(halves, w).ravel()  # both halves are alike
+    if not whole:
+        return places, weights
+    return np.append(-places, places), 0.5 * np.append(weights, weights)
 
 
 @lru_cache(maxsize=8)

@@ -132,7 +132,8 @@ class Rough(NamedTuple):
 
 
 class Yielding(NamedTuple):
-    """Asperities on a shell that gives way where these press it, too, or in a bore of any gap.
+    """Asperities on a shell that gives way where these press it, too, in a bore of any gap, or
+    beside grooves.
 
     Attributes
     ----------
@@ -151,6 +152,8 @@ class Yielding(NamedTuple):
         Places between a cell centre and the next one, and their weights, shares of the way.
     cos, sin : array (nx, n)
         Of these places.
+    grooves : array of bool (g, nx)
+        Whether there is a groove of a supply between a cell centre and the next one.
     unit : float
         Load, N, over ∫∫ of asperity pressure over K E*, in shaft radii.
     """
@@ -167,6 +170,7 @@ class Yielding(NamedTuple):
     part: Array
     cos: Array
     sin: Array
+    grooves: NDArray[np.bool_]
     unit: float
 
 
@@ -174,7 +178,7 @@ _NONE = np.zeros(1)
 _NONE_AROUND = np.zeros((1, 1))
 RIGID = Yielding(
     False, 0.0, 1.0, np.zeros((4, 2)), _NONE_AROUND, _NONE, _NONE, _NONE, _NONE, _NONE,
-    _NONE_AROUND, _NONE_AROUND, 0.0,
+    _NONE_AROUND, _NONE_AROUND, np.zeros((1, 1), bool), 0.0,
 )  # fmt: skip
 
 

@@ -261,7 +261,7 @@ class ComposedFilm:
             "supply_flow": self.units.pockets.flow_unit * share * rows[:, at.FED],
         }
         if self.options.supply is not None:
-            values |= supplied(self.units, share * rows[:, at.RESULTS :])
+            values |= supplied(self.units, share * rows[:, at.RESULTS :], values["supply_flow"])
         if self.whole:
             values["tilt"] = rows[:, [at.TILT_X, at.TILT_Y]] * clearance / self.bearing.radius
             values["moment"] = rows[:, [at.MOMENT_X, at.MOMENT_Y]] * self.bearing.radius
@@ -318,9 +318,9 @@ def build(
     nodes = nodes or layout(half, across or points[level + more], few)
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
-        ring = lobed(ring, bearing, options.cells[0])
-    held = held_points(units, options, nodes, ring.width.size)
-    ring = ring._replace(groove=ring.groove | (held.grooves >= 0).all(axis=1))
+        ring = lobed(ring, bearing, options)
+    held = held_points(units, options, nodes, ring)
+    ring = ring._replace(groove=ring.groove | held.columns)
     places = _places(bearing, nodes.z, half, whole)
     give = _give(bearing, options)
     film = Composed(

@@ -15,6 +15,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.grooves import groove_marks, groove_numbers
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes, stretched_width
 from loadflow.journal.supply import Supply
 
@@ -29,14 +30,18 @@ def nodes_beside(supply: Supply | None, bearing: JournalGeometry, whole: bool) -
     """Points across a width that grooves part; None where none does."""
     if supply is None:
         return None
-    half = bearing.width / bearing.diameter
-    _, ends = groove_marks(supply.grooves, 1, bearing.radius)
-    shares = np.unique(np.round(ends / half, 12))
-    marks = tuple(shares[(shares > _ENDS) & (shares < 1.0 - _ENDS)].tolist())
+    half, marks = bearing.width / bearing.diameter, parted_at(supply, bearing)
     if not marks:
         return None
     middle = min(max(round(4.0 * marks[0]), 1), _POINTS - 2)
     return stretched_width(half, marks, (middle, _POINTS - middle), whole)
+
+
+def parted_at(supply: Supply, bearing: JournalGeometry) -> tuple[float, ...]:
+    """Where grooves end between mid-plane and the bearing end, shares of the half width."""
+    _, ends = groove_marks(supply.grooves, 1, bearing.radius)
+    shares = np.unique(np.round(ends / (bearing.width / bearing.diameter), 12))
+    return tuple(shares[(shares > _ENDS) & (shares < 1.0 - _ENDS)].tolist())
 
 
 class Held(NamedTuple):
@@ -48,34 +53,38 @@ class Held(NamedTuple):
         Whether there are any.
     grooves : array of int (nx, m)
         Number of the groove that holds each point, −1 for none; one at the end of a groove is held.
+    columns : array of bool (nx,)
+        Columns that grooves hold all across.
     drags : array (nx, m)
         Share of the width of each point that is beside grooves.
     """
 
     on: bool
     grooves: NDArray[np.int64]
+    columns: NDArray[np.bool_]
     drags: Array
 
 
-def held_points(units: DiscreteFilm, options: Film, nodes: Nodes, around: int) -> Held:
-    """Which points of a film of `around` columns its supply holds.
+def held_points(units: DiscreteFilm, options: Film, nodes: Nodes, ring: Ring) -> Held:
+    """Which points of a film on the columns of a `ring` its supply holds.
 
     Raises
     ------
     loadflow.errors.InputError
         A groove beyond the bearing end, or two that overlap.
     """
-    angle, points = units.mesh.angle, nodes.slopes.shape[1]
+    angle, points = np.arctan2(ring.sin, ring.cos), nodes.slopes.shape[1]
     if options.supply is None:
-        shape = around, points
-        return Held(False, np.full(shape, -1), np.ones(shape))
+        shape = angle.size, points
+        return Held(False, np.full(shape, -1), np.zeros(angle.size, bool), np.ones(shape))
     half, z = float(units.mesh.z_edges[-1]), nodes.z[:points]
     asked = options.cells[0], units.radius
     below, above = (
         groove_numbers(angle, z + by, half, options.supply, *asked) for by in (-_CLOSE, _CLOSE)
     )
     drags = nodes.below * (below < 0) + (1.0 - nodes.below) * (above < 0)
-    return Held(True, np.maximum(below, above), drags)
+    grooves = np.maximum(below, above)
+    return Held(True, grooves, np.all(grooves >= 0, axis=1), drags)
 
 
 def put_in_grooves(units: DiscreteFilm, held: Held, pressure: Array) -> None:
@@ -85,12 +94,15 @@ def put_in_grooves(units: DiscreteFilm, held: Held, pressure: Array) -> None:
         inner[held.grooves == number] = given
 
 
-def supplied(units: DiscreteFilm, flows: Array) -> dict[str, Any]:
-    """Flow and pressure of the grooves of films whose `flows` (n, g) are in their units."""
+def supplied(units: DiscreteFilm, flows: Array, between: Array) -> dict[str, Any]:
+    """Flow and pressure of the grooves of films whose `flows` (n, g) are in their units.
+
+    What grooves `between` segments feed (n,), m³/s, is in the flow of all.
+    """
     feed, flows = units.pockets.feed, units.pockets.flow_unit * flows
     pressure = np.array(feed.guess(units.p_edge))
     return {
-        "supply_flow": flows.sum(axis=1),
+        "supply_flow": flows.sum(axis=1) + between,
         "supply_power": np.array([feed.power(pressure, flow) for flow in flows]),
         "groove_flow": flows,
         "groove_pressure": np.tile(pressure, (len(flows), 1)),

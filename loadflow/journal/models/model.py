@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
+from loadflow.journal.film.grooves import on_one_segment
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -236,20 +237,16 @@ def _beside_grooves(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str,
     supply, on_few = film.supply, 'on rung = "reduced"'
     assert supply is not None
     yield "supply.pump", supply.pump, True, f"grooves of a given pressure {on_few}"
+    segments, cells = bearing.shape.segments, (film.cells[0], bearing.radius)
     for number, groove in enumerate(supply.grooves):
         name, given = f"supply.grooves[{number}]", f"a given pressure {on_few}"
         yield f"{name}.restrictor", groove.restrictor, True, given
         yield f"{name}.shape", groove.shape, groove.shape == "circle", f'"rectangle" {on_few}'
+        apart, within = not on_one_segment(groove, segments, *cells), "that of a groove within one"
+        yield f"{name}.angle", groove.angle, apart, f"{within} segment of the bore {on_few}"
     beside = f"none beside a supply {on_few}"
-    yield (
-        "shape",
-        bearing.shape,
-        bool(bearing.shape.segments),
-        f"a whole bore beside a supply {on_few}",
-    )
-    yield "relief", bearing.relief, bool(bearing.relief), beside
+    yield "shape", bearing.shape, bearing.has_pads, f"one without pads beside a supply {on_few}"
     yield "shell", film.shell, True, beside
-    yield "contact", film.contact, True, beside
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

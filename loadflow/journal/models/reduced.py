@@ -360,7 +360,7 @@ def _discrete(bearing: JournalGeometry, options: Film, film: DiscreteFilm) -> tu
     """Constants and work arrays of the compiled loops."""
     axial, ring = lobatto(float(film.mesh.z_edges[-1]), POINTS), ring_of(film, 2.0)
     if bearing.shape.segments:
-        ring = lobed(ring, bearing, options.cells[0])
+        ring = lobed(ring, bearing, options)
     reduced = Reduced(ring, (0,) * POINTS, axial, True)
     return reduced, make_work(ring.width.size, POINTS)
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_mesh import cells_on
+from loadflow.journal.film.gap_mesh import between_marks, cells_on
+from loadflow.journal.film.grooves import groove_marks
 from loadflow.journal.film.mesh import folded
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -119,16 +120,22 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
     )  # fmt: skip
 
 
-def lobed(ring: Ring, bearing: JournalGeometry, around: int) -> Ring:
-    """The same around the segments of a shaped bore: cells on them, one in each groove between."""
-    bore = Bore.of(bearing)
+def lobed(ring: Ring, bearing: JournalGeometry, options: Film) -> Ring:
+    """The same around the segments of a shaped bore: cells on them, one in each groove between.
+
+    Cells on the segments end where grooves of a supply do.
+    """
+    bore, around = Bore.of(bearing), options.cells[0]
+    fed = options.supply.grooves if options.supply is not None else ()
+    marks, _ = groove_marks(fed, around, bearing.radius)
     segments = bore.segments
     starts = [part.start for part in segments] + [segments[0].start + 2 * np.pi]
     edges, number, groove = [np.array(starts[:1])], [], []
     for k, (part, cells) in enumerate(zip(segments, cells_on(segments, around))):
-        edges += [np.linspace(part.start, part.end, cells + 1)[1:], np.array(starts[k + 1 : k + 2])]
-        number += [k] * (cells + 1)
-        groove += [False] * cells + [True]
+        own = between_marks(part.start, part.end, marks, cells)[1:]
+        edges += [own, np.array(starts[k + 1 : k + 2])]
+        number += [k] * (own.size + 1)
+        groove += [False] * own.size + [True]
     edge, segment, gap = np.concatenate(edges), np.array(number), np.array(groove)
     width, angle, face = np.diff(edge), 0.5 * (edge[1:] + edge[:-1]), edge[1:]
     half = np.where(gap, 0.0, 0.5 * width)

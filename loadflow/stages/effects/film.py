@@ -314,5 +314,10 @@ SUPPLY = Effect(
     needs="a table journal.supply",
     concerns=lambda scene: scene.journal.supply is not None,
     rungs=("grid", "reduced"),
-    partly=(("reduced", "rectangular grooves and pockets of given pressure, in a whole bore"),),
+    partly=(
+        (
+            "reduced",
+            "rectangular ones of given pressure, each on one segment, beside no pads or shell",
+        ),
+    ),
 )
