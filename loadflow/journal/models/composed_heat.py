@@ -1,9 +1,11 @@
 """Heat over the area of a reduced film, of cells around and the points across.
 
-The energy equation is that of the grid (`loadflow.journal.film.energy_equation`) on strips around,
-one for each point across and as wide as its weight: what flows along each and over the bearing ends
-follows from the film, and what passes between them from the balance of each cell. In motion the
-temperatures are those of the mean heat of films at rest under loads of the series, as on the grid.
+The energy equation is that of the grid (`loadflow.journal.film.energy_equation`) on even strips
+around, as many as the grid has cells across: what mixes between cells of first order is then the
+same on both. What flows along each strip and over the bearing ends follows from the film, whose
+points across share it out by the width that they stand for, and what passes between strips from the
+balance of each cell. In motion the temperatures are those of the mean heat of films at rest under
+loads of the series, as on the grid.
 """
 
 from __future__ import annotations
@@ -41,13 +43,17 @@ from loadflow.journal.models.composed_model import (
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
+from loadflow.journal.models.width_modes import Nodes
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
+from loadflow.journal.solvers.warm import WarmFilm, coupled, heat_columns, no_warmth
 from loadflow.journal.solvers.warm_mean import MeanHeat, in_balance, series_loads
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
+
+
+_LEAST_STRIPS = 20  # over the whole width: on fewer, mixing makes a film that warms 1 % stiffer
 
 
 class Made(NamedTuple):
@@ -71,14 +77,16 @@ class StripFilm(Temperatures):
     """
 
     def __init__(self, model: ComposedFilm, heat: FilmHeat) -> None:
-        units, nodes = model.units, model.film.nodes
+        units = model.units
         self.mirrored = not model.whole
         self._share = 0.5 if model.whole else 1.0  # the units are those of half of the width
-        self._order = np.argsort(nodes.z)
+        count = max(model.options.cells[1], _LEAST_STRIPS) // (1 if model.whole else 2)
+        end = float(units.mesh.z_edges[-1])
+        self._edges = np.linspace(-end if model.whole else 0.0, end, count + 1)
         area = self._share * units.mirrors * units.radius**2
-        areas = area * np.outer(model.film.ring.width, nodes.weights[self._order])
+        areas = area * np.outer(model.film.ring.width, np.diff(self._edges))
         super().__init__(units, heat, areas, np.full(areas.shape, -1, dtype=np.int64), 0)
-        self.z = nodes.z[self._order]
+        self.z = 0.5 * (self._edges[1:] + self._edges[:-1])
         self.thicken(self.state(None))
 
     def thicken(self, state: Array) -> None:
@@ -89,7 +97,7 @@ class StripFilm(Temperatures):
     def made(self, model: ComposedFilm, speed: float, rubbed: float) -> Made:
         """What the film last solved carries and makes; its asperities make the heat `rubbed`, W."""
         film, work, units = model.film, model.work, self.film
-        ring, nodes, order = film.ring, film.nodes, self._order
+        ring, nodes, shares = film.ring, film.nodes, self._shares(film.nodes)
         points, inner = nodes.slopes.shape
         p, fill = (work.state[row, :, :inner] for row in (P, FILL))
         wedge, weights = 0.5 * ring.slope * speed, nodes.weights
@@ -119,11 +127,12 @@ class StripFilm(Temperatures):
         drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
         pumped = unit * (across + 0.5 * (along + np.roll(along, 1, axis=0)))
         pumped += self._rubbed(model, rubbed)
+        gaps = (clearance * work.gap[MEAN, :, :points] * weights) @ shares / np.diff(self._edges)
         return Made(
-            self._between(unit * around[:, order], unit * dragged[:, order], unit * first),
-            clearance * work.gap[MEAN, :, order].T.ravel(),
-            (drag * speed**2 * work.sheared[:, order]).ravel(),
-            pumped[:, order].ravel(),
+            self._between(unit * around @ shares, unit * dragged @ shares, unit * first),
+            gaps.ravel(),
+            (drag * speed**2 * work.sheared[:, :points] @ shares).ravel(),
+            (pumped @ shares).ravel(),
         )
 
     def of(self, films: Sequence[Made], guess: Array) -> Warmth:
@@ -135,6 +144,16 @@ class StripFilm(Temperatures):
         return self.balanced(Flows.mean([one.flows for one in films]), gaps, sheared, pumped, guess)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _shares(self, nodes: Nodes) -> Array:
+        """Share of the width of each point that lies in each strip (l, strips)."""
+        order = np.argsort(nodes.z)
+        ends = self._edges[0] + np.append(0.0, np.cumsum(nodes.weights[order]))
+        low = np.maximum(ends[:-1, None], self._edges[:-1])
+        within = np.maximum(np.minimum(ends[1:, None], self._edges[1:]) - low, 0.0)
+        shares = np.empty(within.shape)
+        shares[order] = within / within.sum(axis=1, keepdims=True)
+        return shares
+
     def _between(self, around: Array, dragged: Array, first: Array) -> Flows:
         """Flows along the strips and between them, of which `first` comes over the lower end."""
         cells = np.arange(self.size).reshape(self.shape)
@@ -180,20 +199,15 @@ class _Around:
         self.options = replace(options.isothermal(), grading="uniform")
         self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
         self.limits = replace(limits, strict=False)
-        # on the fewest points the strips mix so much that friction is 1 % larger
+        # the fewest points tell no narrow strips apart
         self.levels = levels_at_rest(self.options)[1:]
-        self.heat, self.equations = cast("FilmHeat", options.heat), dict[int, StripFilm]()
-
-    def equation(self, level: int) -> StripFilm:
-        """Energy equation on the points across of a level."""
-        if level not in self.equations:
-            given = self.bearing, self.options, self.speed, self.line, level
-            self.equations[level] = StripFilm(build(*given, at_rest=True), self.heat)
-        return self.equations[level]
+        given = self.bearing, self.options, self.speed, self.line, self.levels[0]
+        self.heat = cast("FilmHeat", options.heat)
+        self.equation = StripFilm(build(*given, at_rest=True), self.heat)
 
     def film(self, n: int, level: int) -> tuple[RestingFilms, Made | None]:
         """Film of load `n` on the points of a level, and what it makes; None: there is none."""
-        one, equation = np.array([n]), self.equation(level)
+        one, equation = np.array([n]), self.equation
         films = films_at_rest(
             self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
             self.limits, level, viscosity=equation.viscosity,
@@ -232,16 +246,15 @@ def equilibrium(
     coarse, left = np.zeros(count, bool), np.zeros(count, bool)
     last: tuple[Solution, Warmth] | None = None
     for n in range(count):
-        equation, films, found = _at_rest(around, n, last)
+        films, found = _at_rest(around, n, last)
         if not found.converged and last is not None:
-            equation, films, found = _at_rest(around, n, None)
+            films, found = _at_rest(around, n, None)
         if not found.converged and limits.strict:
             why = no_warmth(found) or 'no film on rung = "reduced"; "grid" may have one'
             raise SolverError(f"load {n}: {why}")
-        rows.append(_row(around, n, equation, films, found))
+        rows.append(_row(around, n, films, found))
         if found.converged and found.warmth is not None:
-            first = equation is around.equation(around.levels[0])
-            last = (found.solution, found.warmth) if first else None
+            last = found.solution, found.warmth
             left[n] = films.left[0]
             tilt = films.answer["tilt"][0] * bearing.radius / bearing.clearance
             coarse[n] = not films.model.resolves(np.append(found.solution.position, tilt))
@@ -260,36 +273,30 @@ def equilibrium(
 
 def _at_rest(
     around: _Around, n: int, last: tuple[Solution, Warmth] | None
-) -> tuple[StripFilm, RestingFilms, WarmFilm]:
-    """Film and temperatures of load `n`, on as many points across as it asks for.
-
-    Those of the `last` load are on the points of the first level.
-    """
+) -> tuple[RestingFilms, WarmFilm]:
+    """Film and temperatures of load `n`, on as many points across as it asks for."""
     kept: list[tuple[RestingFilms, Made | None]] = []
     for level in around.levels:
-        equation = around.equation(level)
 
         def film_of(before: Solution | None, level: int = level) -> Solution:
             kept[:] = [around.film(n, level)]
             return around.solution(kept[0][0])
 
-        def heat_of(film: Solution, cells: Array, own: StripFilm = equation) -> Warmth:
+        def heat_of(film: Solution, cells: Array) -> Warmth:
             made = kept[0][1]
             assert made is not None  # the film has converged
-            return own.of([made], cells)
+            return around.equation.of([made], cells)
 
-        found = coupled(equation, film_of, last, heat_of)
-        if not (found.converged and kept[0][0].left[0]):
+        found = coupled(around.equation, film_of, last, heat_of)
+        if not (found.converged and kept[0][0].left[0] and found.warmth is not None):
             break
-        last = None
-    return equation, kept[0][0], found
+        last = found.solution, found.warmth
+    return kept[0][0], found
 
 
-def _row(
-    around: _Around, n: int, equation: StripFilm, films: RestingFilms, found: WarmFilm
-) -> dict[str, Any]:
-    """One row of `FilmHeatEquilibrium`, over the area on the points of the first level."""
-    bearing, heat = around.bearing, around.heat
+def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[str, Any]:
+    """One row of `FilmHeatEquilibrium`."""
+    bearing, heat, equation = around.bearing, around.heat, around.equation
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = {name: values[0] for name, values in films.answer.items()}
     place = row["eccentricity"] / bearing.clearance
@@ -297,19 +304,10 @@ def _row(
     operating = operating_columns(bearing, *load, heat.lubricant(mean), place)
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
-    said = heat_columns(equation, found)
-    first = around.equation(around.levels[0])
-    both, shown = (_full_width(one.z, one.mirrored) for one in (equation, first))
-    for name in OVER_AREA:
-        said[name] = np.stack([np.interp(shown, both, values) for values in said[name]])
-    where = {"angle": equation.film.mesh.angle, "z": shown * bearing.radius}
-    row |= warm | said | where
+    z = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
+    where = {"angle": equation.film.mesh.angle, "z": z * bearing.radius}
+    row |= warm | heat_columns(equation, found) | where
     return row | {"converged": found.converged, "iterations": found.solution.iterations}
-
-
-def _full_width(z: Array, mirrored: bool) -> Array:
-    """Places across of the points `z`, and of their images."""
-    return np.append(-z[::-1], z) if mirrored else z
 
 
 def mean_around(
@@ -328,8 +326,7 @@ def mean_around(
         Many of the loads have no film at rest.
     """
     around = _Around(bearing, options, force, speed, line, limits)
-    level = around.levels[0]
-    equation, some = around.equation(level), series_loads(speed.size)
+    level, equation, some = around.levels[0], around.equation, series_loads(speed.size)
     made: list[Made] = []
 
     def film_of(before: Solution | None) -> Solution:
