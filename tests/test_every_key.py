@@ -188,8 +188,10 @@ ALONE = {
     "journal.contact", "journal.shell", "rolling.outer_ring.sectors",
     "rolling.roller_model", "rolling.inertia",
     "rolling.geometry.rows", "rolling.further.0.geometry.rows", "rolling.further.0.inertia",
+    "rolling.geometry.contact_angle",
 }  # fmt: skip
 """Keys of which no other value goes with the scene: barrels in one row have no contact angle,
+toroidal ones have one row,
 asperities on a shell that gives way have no model on the rung, a ring in space costs minutes
 (`tests/rolling/test_ring_fem.py`), balls have no slices, and rollers no
 inertia that counts (`tests/rolling/test_elements_in_scenes.py` shows what these two change)."""

@@ -249,6 +249,7 @@ BASES |= {
         "contact_angle": 0.6, "rows": 2, "row_spacing": 0.2}),
     "rollers in one row": rolling("N", "roller", ROLLER),
     "barrels": rolling("N2", "spherical", ROLLER | {"contact_angle": 0.2}),
+    "toroidal barrels": rolling("N", "toroidal", ROLLER | {"raceway_radius": 1.2, "shift": 0.01}),
     "crossed rollers": rolling("M", "crossed", ROLLER | {"rollers": 60, "roller_length": 0.045,
                                                          "pitch_diameter": 2.0}),
     "three rows": rolling("M", "three-row", {
@@ -412,7 +413,7 @@ WALKED = {
     "direct drive": ("shaft",),
     **dict.fromkeys(
         ("balls in one row", "balls in two rows", "rollers in one row", "barrels",
-         "crossed rollers", "three rows"), ("rolling.geometry",)
+         "toroidal barrels", "crossed rollers", "three rows"), ("rolling.geometry",)
     ),
     "further bearing": ("rolling.further",),
     **dict.fromkeys(("ring on legs", "ring of a file", "meshed ring"), ("rolling.outer_ring",)),

@@ -13,6 +13,7 @@ from .bearings.kinds import KINDS as KINDS
 from .bearings.roller import RollerBearing as RollerBearing
 from .bearings.spherical import SphericalRollerBearing as SphericalRollerBearing
 from .bearings.three_row import ThreeRowRollerBearing as ThreeRowRollerBearing
+from .bearings.toroidal import ToroidalRollerBearing as ToroidalRollerBearing
 from .edge_contact import EdgeContact as EdgeContact
 from .edge_contact import edge_contact as edge_contact
 from .former_names import BallBearingResult as BallBearingResult

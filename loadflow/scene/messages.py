@@ -113,6 +113,8 @@ def _known(location: Location, schema: Mapping[str, Any]) -> list[tuple[str, str
         for inner in _keys(below, schema)
     }
     more = ["arrangement"] if location == ("rolling",) else []  # written for a bearing
+    if not location and "rolling" in found:  # a scene: become sections before it is read
+        more = ["bearings", "schema"]
     return [*((name, name) for name in (*found, *more)), *deeper.items()]
 
 

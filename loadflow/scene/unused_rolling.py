@@ -7,7 +7,6 @@ from typing import Any
 
 from pydantic import TypeAdapter
 
-from loadflow.rolling import RollerBearing, SphericalRollerBearing
 from loadflow.rolling.friction import CatalogueEntry
 from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing, Ring
@@ -127,14 +126,13 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         return
     if friction.follow_every > 1 and all(b.friction_model != "rollers" for b in bearings):
         yield "follow_every", "no bearing of this scene has rollers whose motion is followed"
-    rollers = [b for b in bearings if isinstance(b, RollerBearing | SphericalRollerBearing)]
+    rollers = [b for b in bearings if b.friction_model == "rollers"]
     ribs = ("rib_height", "rib_radius", "rib_friction")
     if not rollers:
         for key in ("rib_angle", *ribs):
             yield key, "no bearing of this scene has rollers on ribs"
     elif friction.rib_angle == 0.0 or (
-        friction.rib_angle is None
-        and not any(isinstance(b, RollerBearing) and b.contact_angle > 0 for b in rollers)
+        friction.rib_angle is None and not any(b.rib_guided for b in rollers)
     ):
         for key in ribs:
             yield key, "the rollers press on no rib: friction.rib_angle is 0"

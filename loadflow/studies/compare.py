@@ -25,6 +25,7 @@ from loadflow.studies.compare_margins import (
     margin_of,
     row_shares,
 )
+from loadflow.studies.compare_mixed import mixed_time
 from loadflow.studies.compare_numbers import (
     Finished,
     against,
@@ -180,7 +181,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     power, note = supply_power(table)
     pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
     yield "pump", replace(pump, error=error)
-    yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield "mixed_time", mixed_time(run, table, share, groups)
     yield "wear", wear(run.scene, _bores(run), table, groups)
     yield from _lost(run, table, table["lost_power"], "")
 
@@ -206,7 +207,7 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
         bearing = run.scene.thrust.bearings[film.place]
         yield "film_to_roughness", _over_roughness(film, bearing)
         yield "eccentricity_ratio", clearance_used(film, bearing)
-    yield "mixed_time", _mixed_time(run, table, share, groups)
+    yield "mixed_time", mixed_time(run, table, share, groups)
     yield from _lost(run, table, table["lost_power"], _OF_CONES)
 
 
@@ -225,15 +226,6 @@ def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:
     return replace(
         film, value=value, low=low, high=high, unit="–", limit=1.0, holds=value >= 1, note=""
     )
-
-
-def _mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Groups) -> Number:
-    """Hours a year above E_krit or in contact while turning, of the bearing with most of them."""
-    part = (table["mixed_friction_time"] / table["duration"]).max("bearing").values
-    touching = float(table["contact_time"].sum())
-    note = "" if part.any() else "no film is in contact or above E_krit while turning"
-    note = f"in contact for {touching:.3g} s of all cases together" if touching else note
-    return lifetime_mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
 
 
 def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:

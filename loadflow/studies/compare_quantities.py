@@ -94,7 +94,6 @@ QUANTITIES: dict[str, Compared] = {
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
     "mixed_time": Compared(
         "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR,
-        no_error="the ladder has no error of a time beyond a limit; that of ε tells how near it is",
     ),
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",

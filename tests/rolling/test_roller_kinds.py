@@ -6,14 +6,17 @@ import math
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.rolling import (
     CrossedRollerBearing,
+    FrictionOptions,
     RollerRaceways,
     SphericalRollerBearing,
     ThreeRowRollerBearing,
+    ToroidalRollerBearing,
 )
 from loadflow.rolling.rating import capacity
+from loadflow.tribology import lubricant
 
 SPHERICAL = SphericalRollerBearing(
     rollers=28, roller_diameter=0.08, roller_length=0.12, pitch_diameter=0.95, contact_angle=0.17
@@ -21,6 +24,8 @@ SPHERICAL = SphericalRollerBearing(
 CROSSED = CrossedRollerBearing(
     rollers=180, roller_diameter=0.04, roller_length=0.038, pitch_diameter=2.6
 )
+ROW = {"rollers": 28, "roller_diameter": 0.08, "roller_length": 0.12, "pitch_diameter": 0.95}
+TOROIDAL = ToroidalRollerBearing(**ROW, raceway_radius=1.2, clearance=2e-4)
 AXIAL = RollerRaceways(
     rollers=150, roller_diameter=0.05, roller_length=0.05, pitch_diameter=3.0, slices=20
 )
@@ -59,6 +64,58 @@ def test_rows_of_a_spherical_bearing_share_radial_load_and_one_takes_the_thrust(
     assert radial[0] == pytest.approx(radial[1], rel=1e-9)
     assert axial[0] == pytest.approx(0, abs=1e-6)
     assert axial[1] == pytest.approx(3e5 / 28 / math.sin(0.17), rel=1e-9)
+
+
+def test_a_toroidal_bearing_carries_as_barrels_in_a_sphere_but_neither_thrust_nor_moment():
+    force = [(1e6, 2e5, 0), (0, -2e6, 0)]
+    row = SphericalRollerBearing(**ROW, rows=1, clearance=2e-4)
+    assert TOROIDAL.equilibrium(force).roller_forces == pytest.approx(
+        row.equilibrium(force).roller_forces, rel=1e-12
+    )
+    assert TOROIDAL.equilibrium(force).singular.all()
+    assert not TOROIDAL.takes_thrust
+    with pytest.raises(SolverError, match="No contact may resist"):
+        TOROIDAL.equilibrium((1e6, 0, 1e5))
+    with pytest.raises(InputError, match="moment"):
+        TOROIDAL.equilibrium((1e6, 0, 0), (1.0, 0))
+
+
+def test_displaced_toroidal_rings_touch_where_the_arcs_of_their_raceways_do():
+    # a barrel is a lens of two arcs whose centres are 2R - D apart; displaced centres of the
+    # raceways are further from each other, until nothing is left between the raceways and it
+    apart = 2 * 1.2 - 0.08
+    shift = math.sqrt(apart**2 - (apart - 1e-4) ** 2)  # takes all of the gap of 0.1 mm
+    moved = dataclasses.replace(TOROIDAL, shift=shift)
+    assert moved.lost_clearance == pytest.approx(2e-4, rel=1e-4)
+    tight = dataclasses.replace(TOROIDAL, clearance=0.0).equilibrium((1e5, 0, 0))
+    assert moved.equilibrium((1e5, 0, 0)).maximum_force == pytest.approx(
+        tight.maximum_force, rel=1e-3
+    )
+
+
+def test_barrels_slip_less_in_flatter_raceways():
+    options = FrictionOptions(oil=lubricant("lgep-2"), temperature=313.15, roughness=0.3e-6)
+    sphere = SphericalRollerBearing(**ROW, rows=1)
+    lost = [
+        float(bearing.equilibrium((1e6, 0, 0)).friction(1.2, options).losses["differential slip"])
+        for bearing in (sphere, TOROIDAL, dataclasses.replace(TOROIDAL, raceway_radius=3.0))
+    ]
+    assert lost[0] > 2 * lost[1] > 4 * lost[2] > 0
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"rows": 2}, "rows: it has one"),
+        ({"row_spacing": 0.1}, "rows: it has one"),
+        ({"contact_angle": 0.1}, r"contact_angle: must be 0, .* got 0\.1"),
+        ({"raceway_radius": 0.515}, r"raceway_radius: must be > 0\.515 m"),
+        ({"shift": 1.0}, "shift"),
+    ],
+)
+def test_what_is_no_toroidal_bearing_is_refused(change, message):
+    with pytest.raises(InputError, match=message):
+        dataclasses.replace(TOROIDAL, **change)
 
 
 def test_crossed_rollers_share_thrust_alike():

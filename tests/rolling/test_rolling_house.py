@@ -82,6 +82,7 @@ def _small(kind):
     made = {
         "ball": lambda: KINDS["ball"](balls=30, **balls),
         "crossed": lambda: KINDS["crossed"](**rows),
+        "toroidal": lambda: KINDS["toroidal"](raceway_radius=1.2, **rows),
         "three-row": lambda: KINDS["three-row"](
             **{name: RollerRaceways(**rows) for name in ("support", "retaining", "radial")}
         ),

@@ -43,18 +43,21 @@ def test_rings_lie_under_all_rows_and_beside_the_rollers(part):
     assert part["outer_ring"] == outer.written
 
 
-def test_a_published_bearing_is_as_high_as_its_rings():
-    # 231/750: 750 × 1220 × 365 mm
+@pytest.mark.parametrize(
+    ("place", "bore", "outside", "width"),
+    [("N", 1.25, 1.75, 0.375), ("N2", 0.75, 1.22, 0.365)],  # INP-A and INP-B, 231/750
+)
+def test_a_published_bearing_is_as_high_as_its_rings(place, bore, outside, width):
     written = tomllib.loads(
         resources.files("loadflow").joinpath("data", "machines", "nrel-5mw.toml").read_text("utf-8")
     )
-    place = written["candidates"]["two-spherical"]["N"]
-    inner, outer = usual_rings(GEOMETRIES["spherical"](**place["geometry"]))
-    size = place["geometry"]["roller_diameter"]
+    part = written["candidates"]["toroidal-spherical"][place]
+    inner, outer = usual_rings(GEOMETRIES[part["kind"]](**part["geometry"]))
+    size = part["geometry"]["roller_diameter"]
     seats = [2 * (ring.radius - side * (ring.width / 2 - 0.5 * size))
              for ring, side in ((inner, -1), (outer, 1))]  # fmt: skip
-    assert seats == pytest.approx([0.75, 1.22], rel=0.04)
-    assert outer.height == pytest.approx(0.365, rel=0.1)
+    assert seats == pytest.approx([bore, outside], rel=0.04)
+    assert outer.height == pytest.approx(width, rel=0.1)
 
 
 def test_a_stated_ring_goes_first():

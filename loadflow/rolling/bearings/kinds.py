@@ -9,6 +9,7 @@ from loadflow.rolling.bearings.four_point import SlewingBearing
 from loadflow.rolling.bearings.roller import RollerBearing
 from loadflow.rolling.bearings.spherical import SphericalRollerBearing
 from loadflow.rolling.bearings.three_row import ThreeRowRollerBearing
+from loadflow.rolling.bearings.toroidal import ToroidalRollerBearing
 
 KINDS: dict[str, type[RollingBearing]] = {
     kind.kind: kind
@@ -17,6 +18,7 @@ KINDS: dict[str, type[RollingBearing]] = {
         BallBearing,
         RollerBearing,
         SphericalRollerBearing,
+        ToroidalRollerBearing,
         CrossedRollerBearing,
         ThreeRowRollerBearing,
     )
