@@ -85,7 +85,6 @@ def test_half_the_steps_have_the_same_temperatures():
     np.testing.assert_allclose(coarse["minimum_film"], fine["minimum_film"][::2], rtol=3 * CHANGE)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("hours", "sample"), [(12.0, r"1\d"), (3.0, r"4\d|5\d")])
 def test_a_shaft_that_grows_into_its_shell_while_it_warms_is_told(hours, sample):
     """After some 20 minutes, whatever the steps; the sample is that of the whole path."""
@@ -93,6 +92,7 @@ def test_a_shaft_that_grows_into_its_shell_while_it_warms_is_told(hours, sample)
         run_up(film(growth=Growth(shell_share=0.1)), hours=hours)
 
 
+@pytest.mark.slow
 def test_each_bound_is_that_of_the_piece_in_which_its_answer_is_worst():
     """A heavy load while the film is thick and cold; later the shaft is slow and its film thin."""
     time = np.linspace(0.0, 3600.0, 361)

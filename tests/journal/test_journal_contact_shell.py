@@ -144,7 +144,6 @@ def test_a_shell_whose_growth_is_not_found_is_no_answer(monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.slow
 @pytest.mark.parametrize("tilt", [{}, {"tilt": TILT}])
 def test_stiffness_of_a_shell_pressed_open_around(tilt):
     state = BEARING.equilibrium(FORCE, SPEED, AROUND, **TIGHT, **tilt)
@@ -157,6 +156,7 @@ def test_stiffness_of_a_shell_pressed_open_around(tilt):
     np.testing.assert_allclose(known, slopes, atol=1e-6 * np.abs(known).max())
 
 
+@pytest.mark.slow
 def test_damping_of_a_shell_pressed_open_around():
     film = replace(AROUND, grid=(36, 6), cavitation=Guembel())
     rate, time = np.array([2.0, -1.0]), np.linspace(0.0, 20.0, 11)
