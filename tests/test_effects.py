@@ -156,7 +156,12 @@ THICK = {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}
 @pytest.mark.parametrize(
     ("effect", "known", "unknown", "said"),
     [
-        (film.SUPPLY, {"grooves": [GROOVE | {"arc": 0.3}]}, CIRCLE, "grooves and pockets of given"),
+        (
+            film.SUPPLY,
+            {"grooves": [GROOVE | {"arc": 0.3}]},
+            CIRCLE,
+            "rectangular ones of given pressure",
+        ),
         (film.SHELL, {"kind": "local", "compliance": 1e-13}, THICK, "a local shell"),
     ],
     ids=["supply", "shell"],
@@ -339,8 +344,14 @@ def test_a_run_remembers_its_pilot_and_gives_the_same_on_two_processes(cube, tmp
     assert after["pilot"] == manifest["pilot"]  # taken up, not measured anew
     two = lf.run(scene_of(cube, **keys), out=tmp_path / "two", workers=2, report=False)
     other = json.loads((two.path / "manifest.json").read_text(encoding="utf-8"))
-    assert other["pilot"]["sizes"] == manifest["pilot"]["sizes"]
-    assert other["effects"] == manifest["effects"]
+    # a kernel that was just compiled and the same out of its file may differ in the last digits
+    sizes, found = (run["pilot"]["sizes"] for run in (manifest, other))
+    assert sizes.keys() == found.keys()
+    for effect, each in sizes.items():
+        assert found[effect] == pytest.approx(each, rel=1e-6)
+    for before, after in zip(manifest["effects"], other["effects"], strict=True):
+        assert (after["size"] or {}) == pytest.approx(before["size"] or {}, rel=1e-6)
+        assert after | {"size": None} == before | {"size": None}
     assert one.tree["journal"].to_dataset().equals(two.tree["journal"].to_dataset())
 
 

@@ -207,7 +207,7 @@ def test_the_narrowest_gap_is_that_of_the_bore_between_the_cells_too(shape):
     own = bearing(shape)
     film = Film(OIL, Guembel(1e5), 1e5, grid=(24, 8), rung="reduced")
     units = units_of(own, film, np.array([SPEED]))
-    ring = lobed(ring_of(units, 2.0), own, 24)
+    ring = lobed(ring_of(units, 2.0), own, film)
     places = np.random.default_rng(1).uniform(-0.9, 0.9, (50, 2))
     found = [least_around.py_func(ring, x, y) for x, y in places.tolist()]
     np.testing.assert_allclose(found, Bore.of(own).narrowest(places), atol=1e-12)
