@@ -95,7 +95,8 @@ def yielding_of(
     x, w = _lines(supply, bearing, whole)
     values = at_places(points, whole, x) if give else np.zeros((x.size, points))
     angle, around = np.arctan2(ring.sin, ring.cos), options.cells[0]
-    held = groove_numbers(angle, half * x, half, supply, around, bearing.radius).T >= 0
+    numbers = groove_numbers(angle, half * x, half, supply, around, bearing.radius).T
+    held = np.ascontiguousarray(numbers >= 0)  # transposed, it would have the loop compiled anew
     first, step, table = _yielding_gap(contact, bearing.clearance, give)
     places = max(int(np.ceil(2.0 * np.pi / options.cells[0] / _AROUND)), _LEAST_AROUND)
     share, part = np.polynomial.legendre.leggauss(places)
