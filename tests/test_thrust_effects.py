@@ -1,17 +1,21 @@
 """What films of thrust collars leave out is counted, by closed forms that solved films bear out."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from loadflow.data import gains
 from loadflow.journal import Heat
+from loadflow.planning.ladder import STEPS_PER_CASE, expected_seconds, ladder
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
-from loadflow.scene.scene import make_scene
+from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects import thrust
 from loadflow.stages.effects.film import THREE_P
 from loadflow.stages.effects.situation import FEW, situation
 
+DLC_1_1 = Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml"
 COLLAR = {
     "kind": "thrust", "play": 6e-4,
     "geometry": {
@@ -102,19 +106,45 @@ def test_asperities_take_a_share_of_films_as_thin_as_the_stated_roughness(at):
     assert found == pytest.approx(0.5**6.804, rel=1e-6)
 
 
-def test_a_plan_takes_heat_and_tilt_where_the_accuracy_asks_for_them():
+def test_a_plan_takes_motion_heat_and_tilt_where_the_accuracy_asks_for_them():
     plan = make_plan(scene_of(12.0))
     kept = {one.name: one.kept for one in plan.effects if one.name.endswith("the collar")}
     assert kept == {
-        "motion of the collar": False, "heat of the collar": True, "tilt of the collar": True,
+        "motion of the collar": True, "heat of the collar": True, "tilt of the collar": True,
         "contact of the collar": False,
     }  # fmt: skip
     assert plan.errors["thrust.film"]["minimum film"] < 0.05
     assert not any(said.startswith("thrust.film") for said in plan.shortfalls)
     chosen = plan.scene.thrust
-    assert (chosen.rung, chosen.tilt, chosen.motion) == ("curve", True, "quasi-static")
+    assert (chosen.rung, chosen.tilt, chosen.motion) == ("curve", True, "transient")
     entering = chosen.collars["N2"].oil
     assert entering.viscosity == pytest.approx(0.15, rel=1e-3)
+
+
+def test_the_main_job_takes_its_collar_in_motion_and_the_coarser_wind_that_this_allows():
+    """All steps of a collar cost less than the points of the wind that would make up for it."""
+    plan = make_plan(read_scene(DLC_1_1))
+    seconds = {step.name: step.seconds for step in plan.steps}
+    assert plan.accurate
+    assert plan.scene.thrust.in_motion
+    assert plan.scene.loads.wind_grid == (11, 144)
+    assert seconds["thrust"] < 0.25 * seconds["loads"]
+
+
+def test_the_table_of_a_collar_is_counted_once_and_a_step_less_than_a_sample_at_rest():
+    def seconds(*wind_speeds, **more):
+        wanted = COLLAR | {"rung": "curve", "tilt": True} | more
+        scene = scene_of(*wind_speeds, accuracy="given", bearings={"N2": wanted})
+        return expected_seconds(scene, "thrust", list_cases(scene))
+
+    once = ladder()["thrust"]["curve, 20x10"]["seconds_once"]
+    assert 2 * seconds(8.0) - seconds(8.0, 12.0) == pytest.approx(once["tilted"])
+    assert 2 * seconds(8.0, tilt=False) - seconds(8.0, 12.0, tilt=False) == pytest.approx(
+        once["curve"]
+    )
+    kept = (seconds(8.0) - once["tilted"]) / STEPS_PER_CASE
+    steps = (seconds(8.0, motion="transient") - once["tilted"]) / STEPS_PER_CASE
+    assert 0.0 < steps < 20.0 * kept
 
 
 def test_a_plan_counts_what_a_scene_does_not_want():

@@ -129,8 +129,13 @@ def with_dominated(rungs: Rungs) -> Rungs:
     return rungs
 
 
+TEN_CASES = 20_000
+"""Samples over which the curve of a collar, made once, counts in the relative time of a rung."""
+
+
 def _cost(entry: Entry) -> float:
-    return entry.get("seconds_per_case") or entry["seconds_per_sample"]
+    once = float(entry.get("seconds_once", {}).get("curve", 0.0)) / TEN_CASES
+    return float(entry.get("seconds_per_case") or entry["seconds_per_sample"]) + once
 
 
 @dataclass(frozen=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 
-from benchmarks.common import seconds_of
+from benchmarks.common import seconds_of, timed
 from benchmarks.ladder.measuring import (
     Bench,
     Entry,
@@ -19,7 +20,8 @@ from benchmarks.ladder.measuring import (
     sentence,
     with_ratios,
 )
-from loadflow.journal.thrust_curves import CollarCurves, CollarFilms
+from loadflow.journal.collar_series import CollarSeries
+from loadflow.journal.thrust_curves import CollarCurves
 from loadflow.running.candidates import candidates_for
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import ConePair, ThrustCollar
@@ -57,7 +59,7 @@ def measure_thrust(bench: Bench) -> Rungs:
                 # the coarsest grid is what a scene has that names none: one that it names stays
                 "settings": {"rung": rung} | ({"grid": grid} if grid != thrust.GRIDS[0] else {}),
                 "includes": [TABULATED[rung], f"{grid[0]}x{grid[1]} cells for each pad"],
-                "seconds_per_sample": rounded(_seconds(chosen, rung, bench.setting.repeat)),
+                **_seconds(chosen, rung, bench.setting.repeat),
                 "reference": f"each sample on the grid {finest[0]}x{finest[1]}",
                 "cases": (
                     f"{', '.join(f'{force / 1e3:g}' for force in FORCES)} kN at "
@@ -162,22 +164,38 @@ def films(
     return {name: np.array([getattr(one, name) for one in each]) for name in FILM}
 
 
-def _seconds(scene: Scene, rung: str, repeat: int) -> float:
-    """Seconds of one sample; of a curve with what is solved for it, once for ten load cases."""
+def _seconds(scene: Scene, rung: str, repeat: int) -> dict[str, object]:
+    """Seconds of one sample, and those of the tables of a curve, which are made once."""
     part, rng = collar_of(scene), np.random.default_rng(0)
-    count = 20_000 if rung == "curve" else 20
-    force = np.zeros((count, 3))
-    force[:, 2], speed = rng.uniform(1e5, 1e6, count), rng.uniform(0.7, 1.3, count)
+    samples = 2_000 if rung == "curve" else 20
+    force = np.zeros((samples, 3))
+    force[:, 2], speed = rng.uniform(1e5, 1e6, samples), rng.uniform(0.7, 1.3, samples)
+    if rung == "curve":
+        part.by_curve(force, speed)
+        seconds = seconds_of(lambda: part.by_curve(force, speed), repeat)
+        kinds = {kind: rounded(timed(_table(part, kind), warm=False)[1]) for kind in TABLES}
+        return {"seconds_per_sample": rounded(seconds / samples), "seconds_once": kinds}
+    loads = [*zip(force, speed.tolist(), strict=True)]
+    each = seconds_of(lambda: [part.solve(f, np.zeros(3), w) for f, w in loads], repeat)
+    return {"seconds_per_sample": rounded(each / samples)}
 
-    def run() -> CollarFilms | list[object]:
-        if rung == "curve":
-            fresh = replace(part.film_model, edge_pressure=part.edge_pressure + rng.random())
-            return CollarCurves(part.bearing, fresh, 0.5 * part.contact_film).equilibrium(
-                force[:, 2], speed
-            )
-        return [part.solve(f, np.zeros(3), w) for f, w in zip(force, speed.tolist())]
 
-    return seconds_of(run, repeat) / count
+TABLES = ("curve", "aligned", "tilted")
+
+
+def _table(part: ThrustCollar, kind: str) -> Callable[[], object]:
+    """Make the table of a collar anew, for a first sample."""
+    force, speed, tilt = np.array([6e5]), np.array([1.0]), np.array([[1e-6, 0.0]])
+    play, film = part.play * (1.0 + 1e-9 * next(_FRESH)), part.film_model
+    collar = replace(part.bearing, play=play)
+    if kind == "curve":
+        curves = CollarCurves(collar, film, 0.5 * part.contact_film)
+        return lambda: curves.equilibrium(force, speed)
+    series = CollarSeries(collar, film, part.contact_film, kind == "tilted")
+    return lambda: series.equilibrium(force, speed, tilt if kind == "tilted" else (0.0, 0.0))
+
+
+_FRESH = count(1)
 
 
 def thrust_gains(bench: Bench, step: float) -> dict[str, float]:

@@ -55,7 +55,7 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
     if work is None or more is None:
         return None
     each = known["seconds_per_case"] + more if "seconds_per_case" in known else _per_sample(known)
-    return each * work * cost_of_effects(scene, one)
+    return each * work * cost_of_effects(scene, one) + one.once(scene, measured)
 
 
 def _per_sample(known: dict[str, Any]) -> float:

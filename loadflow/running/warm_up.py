@@ -61,7 +61,14 @@ SWING = 0.7
 SIMPLER = ", simpler"
 """Ends the name of a job that takes a model without the effects that have kernels of their own."""
 
-SECONDS = {"journal": 36.0, "loads": 22.0, "rolling": 20.0, f"journal{SIMPLER}": 10.0, "shaft": 1.0}
+SECONDS = {
+    "journal": 36.0,
+    "loads": 22.0,
+    "rolling": 20.0,
+    "thrust": 15.0,
+    f"journal{SIMPLER}": 10.0,
+    "shaft": 1.0,
+}
 """Expected processor time of the jobs, s; `QUICK` of the others. Tells how much is left."""
 
 QUICK = 5.0

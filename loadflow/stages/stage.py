@@ -181,6 +181,8 @@ class Stage:
         `STEPS_PER_CASE` steps, or samples; None where not known.
     more_seconds : callable
         Seconds of what runs inside the stage besides, for one load case; None where not measured.
+    once : callable
+        ``once(scene, measured)`` → seconds of what is made once for all cases, as a table.
     left_out : callable
         Scene → what it does not model and why, beyond the effects that say so themselves.
     sample : int, optional
@@ -205,6 +207,7 @@ class Stage:
         lambda scene, cases, measured: steps_of(cases) / STEPS_PER_CASE
     )
     more_seconds: Callable[[Scene, Measured], float | None] = lambda scene, measured: 0.0
+    once: Callable[[Scene, Measured], float] = lambda scene, measured: 0.0
     left_out: Callable[[Scene], dict[str, str]] = lambda scene: {}
     sample: int | None = None
     asked: Callable[[Scene], bool] = lambda scene: False

@@ -325,6 +325,13 @@ def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
     return (followed + kept_share(scene, measured) * others) * steps_of(cases)
 
 
+def _tables(scene: Scene, measured: Measured) -> float:
+    """Seconds of the tables of all collars, where they have one; both rows share it if alike."""
+    known = (measured(scene, "thrust") or {}).get("seconds_once", {})
+    kind = "tilted" if scene.thrust.tilt else "aligned" if tabulated(scene) else "curve"
+    return float(known.get(kind, 0.0)) * len(scene.thrust.collars)
+
+
 def _needs(scene: Scene) -> tuple[str, ...]:
     """The series where collars follow it, or choose of it by their own load; else what is kept."""
     by_histogram = scene.reduction.method == "histogram"
@@ -343,5 +350,6 @@ STAGE = Stage(
     models=(RUNGS,),
     summarise=summary,
     work=_work,
+    once=_tables,
     left_out=_left_out,
 )

@@ -10,12 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
 from loadflow.errors import LoadflowError
-from loadflow.journal import DoubleThrustResult
+from loadflow.journal import DoubleThrustBearing, DoubleThrustResult
+from loadflow.journal import Film as PadFilm
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
@@ -145,10 +146,7 @@ class Situation:
         load = self.bearings[name]
         force = to_rolling(load.force[point])
         force[2] += np.copysign(load.surge[point], force[2])
-        try:
-            return few.solve(force, np.zeros(3), float(self.speed[point]))
-        except LoadflowError:
-            return None
+        return _carried(few.bearing, few.film_model, float(force[2]), float(self.speed[point]))
 
     def film(self, name: str, share: float = 1.0) -> Film:
         """Film of a bearing under its mean load and a share of the largest deviation from it.
@@ -166,6 +164,17 @@ class Situation:
         found = bearing.equilibrium(force, self.speed, held.lubricant, rung="chart", strict=False)
         film = Film(*(np.asarray(getattr(found, name)) for name in Film.__dataclass_fields__))
         return replace(film, friction_power=film.friction_power * size.width / width)
+
+
+@lru_cache(maxsize=256)
+def _carried(
+    collar: DoubleThrustBearing, film: PadFilm, force: float, speed: float
+) -> DoubleThrustResult | None:
+    """Film of a collar under a force; a plan, its pilot and its refined self all ask for it."""
+    try:
+        return collar.equilibrium(force, speed, film)
+    except LoadflowError:
+        return None
 
 
 def situation(scene: Scene, cases: Iterable[Case]) -> Situation:

@@ -23,9 +23,14 @@ from loadflow.stages.effects.film_sizes import asperity_share
 from loadflow.stages.effects.situation import BearingLoad, Situation
 from loadflow.stages.stage import with_settings
 
-COSTS = {"tilt": {"curve": 3.1, "grid": 4.5}, "heat": {"curve": 1.0, "grid": 6.0}}
-"""Time of films with an effect over that without, by rung: of 20,000 samples on a curve, its table
-included, and of one sample on the grid; docs/thrust.md."""
+COSTS = {
+    "motion": {"curve": 0.075},
+    "tilt": {"curve": 1.1, "grid": 4.5, "transient": 2.9},
+    "heat": {"curve": 1.6, "grid": 6.0, "transient": 1.1},
+}
+"""Time of a sample with an effect over that without, by rung, in motion by itself: of samples and
+steps on a table, which the ladder counts once, and of one sample on the grid. Measured by ``python
+-m benchmarks.references.collar_costs``; docs/thrust.md."""
 
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
@@ -52,8 +57,13 @@ def _worst(of: Of) -> Callable[[Situation], Sizes]:
 
 
 def cost_of(name: str) -> Callable[[Scene], float]:
-    """Cost of one of `COSTS` on the rung of a scene."""
-    return lambda scene: COSTS[name][scene.thrust.rung]
+    """Cost of one of `COSTS` on the rung of a scene, of the others in motion that of a step."""
+
+    def cost(scene: Scene) -> float:
+        own = "transient" if scene.thrust.in_motion else scene.thrust.rung
+        return COSTS[name].get(own, COSTS[name][scene.thrust.rung])
+
+    return cost
 
 
 def _has_collars(scene: Scene) -> bool:
@@ -90,6 +100,7 @@ MOTION = Effect(
     needs='thrust.motion = "transient", of a shaft that never stands',
     concerns=_has_collars,
     rungs=("curve",),
+    cost=cost_of("motion"),
 )
 
 
