@@ -117,6 +117,8 @@ class _Processes:
         # starts the processes: a signal interrupts the main thread only, and a process whose start
         # is cut in two is known to nobody and dies with a traceback
         self._starter = ThreadPoolExecutor(1)
+        # at once: each reads its modules for seconds, while a run is being planned
+        self._starter.submit(self._submitted, _read_modules, [*range(workers)])
 
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
@@ -183,6 +185,11 @@ class _Processes:
             for process in processes:
                 process.kill()
             pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _read_modules(_: int) -> None:
+    """What a load case and its kernels need; a process that has it reads nothing again."""
+    import loadflow.running.warm_up  # noqa: F401
 
 
 def _ignore_errors_of(thread: Thread | None) -> None:

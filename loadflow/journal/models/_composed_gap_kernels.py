@@ -13,6 +13,7 @@ from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
+from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
 from loadflow.numerics.lanes import LANES, put, take
 
@@ -86,7 +87,7 @@ def turn(film, work, speed, lightness):
     work.numbers[1] = film.regime.onset * abs(speed) * lightness
 
 
-@once
+@beside(lambda film, work: None)
 def _turbulent_gap(film, work):
     """Conductances of turbulent flow, from those of laminar flow."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
@@ -128,7 +129,7 @@ def _of_table(yielding, row, h):
     return _between(yielding.table[row], yielding.table[row + 1], i, place_in - i, yielding.step)
 
 
-@once
+@beside(lambda film, work: None)
 def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
@@ -193,7 +194,12 @@ def narrowest(film, work):
                 least = min(least, work.gap[PLANES, i, k])
         for k in range(m):
             least = min(least, work.face[FACE_PLANES, i, k])
-    return opened(film.yielding, least)[0]
+    return _opened_gap(film, least)
+
+
+@beside(lambda film, gap: gap)
+def _opened_gap(film, gap):
+    return opened(film.yielding, gap)[0]
 
 
 @inner
@@ -222,12 +228,16 @@ def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
 def touch(film, work, q):
     """Load of the asperities and its derivative into `work.touch`, ∫ p_a into `work.normal`."""
     work.touch[:] = 0.0
-    normal, rough = 0.0, film.rough
-    if rough.size == 0.0:
-        return
-    if film.yielding.on:
+    if film.rough.size > 0.0 and film.yielding.on:
         work.normal[0] = _touch_shell(film, work, q)
-        return
+    elif film.rough.size > 0.0:
+        work.normal[0] = _touch_bore(film, work, q)
+
+
+@beside(lambda film, work, q: 0.0)
+def _touch_bore(film, work, q):
+    """∫ p_a and `work.touch` in a rigid cylindrical bore, by the table of a line of contact."""
+    normal, rough = 0.0, film.rough
     last = rough.table.shape[1] - 2
     load, stiffness = work.touch[0], work.touch[1:]
     for g in range(rough.z.size):
@@ -265,10 +275,10 @@ def touch(film, work, q):
     for a in range(4):
         for b in range(a):
             stiffness[a, b] = stiffness[b, a]
-    work.normal[0] = normal
+    return normal
 
 
-@once
+@beside(lambda film, work, q: 0.0)
 def _touch_shell(film, work, q):
     """∫ p_a and `work.touch` on a shell that is pressed open, in a shaped bore, or beside grooves.
 

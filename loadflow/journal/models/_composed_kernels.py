@@ -21,6 +21,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     OPEN,
     narrowest,
 )
+from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
@@ -286,7 +287,7 @@ def carry(film, work, size):
         _carry_touch(film, work, size)
 
 
-@once
+@beside(lambda film, work, size: None)
 def _carry_touch(film, work, size):
     """Add what asperities carry more by way of the shell, which the film presses open."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]

@@ -24,6 +24,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     opened,
     smooth_beyond,
 )
+from loadflow.journal.models._of_effects import beside
 from loadflow.numerics.lanes import LANES, larger, put, spread, take
 
 
@@ -199,26 +200,14 @@ def _uneven(film, work):
     Between rough surfaces, of turbulent flow, beside grooves, of an uneven viscosity; of this one
     also fills `work.sheared`.
     """
-    points, m, rough = film.nodes.z.size, film.nodes.slopes.shape[1], film.rough
-    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
-    numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
+    points, m = film.nodes.z.size, film.nodes.slopes.shape[1]
     shear, grown = 0.0, 0.0
     for i in range(film.ring.cos.size):
         if film.ring.groove[i]:
             continue
         for k in range(points):
-            h = work.gap[PLANES, i, k]
-            if film.yielding.on:
-                h = opened(film.yielding, h)[0]
-                if k < m:
-                    lifted = h - work.gap[PLANES, i, k]
-                    pressed = work.state[LOAD, i, k] - film.ring.p_edge
-                    grown = max(grown, film.give * pressed + lifted)
-            inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
-            if film.regime.on:
-                inverse *= factor(h, numbers, SHEAR)[0]
-            if film.held.on and k < m:
-                inverse *= film.held.drags[i, k]
+            inverse, grows = _sheared_at(film, work, i, k)
+            grown = max(grown, grows)
             if film.uneven.on:
                 inverse *= work.state[FILL, i, k] if k < m else film.ring.edge_fill
             part = film.nodes.weights[k] * film.ring.width[i] * inverse
@@ -227,6 +216,26 @@ def _uneven(film, work):
                 part *= film.uneven.cells[i, k]
             shear += part
     return shear, grown
+
+
+@beside(lambda film, work, i, k: (1.0 / work.gap[PLANES, i, k], 0.0))
+def _sheared_at(film, work, i, k):
+    """Mean inverse of the gap at a point, with what grooves take of it, and growth of the gap."""
+    h, m, rough, grown = work.gap[PLANES, i, k], film.nodes.slopes.shape[1], film.rough, 0.0
+    if film.yielding.on:
+        h = opened(film.yielding, h)[0]
+        if k < m:
+            lifted = h - work.gap[PLANES, i, k]
+            pressed = work.state[LOAD, i, k] - film.ring.p_edge
+            grown = film.give * pressed + lifted
+    far = -1.0 if rough.size == 0.0 else smooth_beyond(rough)
+    inverse = sheared(h, rough.size, rough.along) if h <= far else 1.0 / h
+    if film.regime.on:
+        numbers = (work.numbers[0], work.numbers[1], film.regime.begin, film.regime.end)
+        inverse *= factor(h, numbers, SHEAR)[0]
+    if film.held.on and k < m:
+        inverse *= film.held.drags[i, k]
+    return inverse, grown
 
 
 @once

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from loadflow.journal.cavitation import FILL
-from loadflow.journal.models._compile import once
 from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN
+from loadflow.journal.models._of_effects import beside
 
 
-@once
+@beside(lambda film, work, first, last, rate: 0.0)
 def hold_points(film, work, first, last, rate):
     """Leave the pressure of a supply as it is in the columns `first` … `last`; the largest.
 
@@ -34,7 +34,7 @@ def hold_points(film, work, first, last, rate):
     return largest
 
 
-@once
+@beside(lambda film, system: None)
 def hold_in_matrix(film, system):
     """The same in the derivatives of the residual."""
     m = film.nodes.slopes.shape[1]

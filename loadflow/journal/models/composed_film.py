@@ -285,6 +285,10 @@ class Composed(NamedTuple):
     uneven: Uneven
 
 
+class SmoothFilm(Composed):
+    """One of smooth surfaces, of laminar flow, without a supply: loops leave the rest out."""
+
+
 class ComposedWork(NamedTuple):
     """Work arrays of one film of nx cells around, each with m unknowns in L lanes.
 

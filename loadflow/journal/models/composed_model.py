@@ -31,6 +31,7 @@ from loadflow.journal.models.composed_film import (
     ComposedWork,
     Places,
     Regime,
+    SmoothFilm,
     Thickness,
     lanes_of,
     make_work,
@@ -323,7 +324,8 @@ def build(
     ring = ring._replace(groove=ring.groove | held.columns)
     places = _places(bearing, nodes.z, half, whole)
     give = _give(bearing, options)
-    film = Composed(
+    effects = options.contact, options.turbulence, options.supply
+    film = (SmoothFilm if effects == (None, None, None) else Composed)(
         ring, nodes, places, lanes_of(nodes, places.depth), give,
         rough_of(bearing, options.contact, whole, units),
         yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring),

@@ -1,0 +1,42 @@
+"""Kernels of effects that many films have none of, which are not compiled for those.
+
+A film of smooth surfaces, of laminar flow and without a supply is a `SmoothFilm` by its type. What
+stands for asperities, turbulence and grooves in the loops of others took a quarter of the time of
+compiling them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any
+
+from numba.extending import overload
+
+from loadflow.journal.models.composed_film import SmoothFilm
+from loadflow.numerics.linked import LINKED, contracted
+
+# a call takes a film with asperities 3 % of its time
+_OPTIONS: Any = contracted.keywords | LINKED | {"forceinline": True}
+del _OPTIONS["cache"]  # with that of the kernel that calls it
+
+
+def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
+    """Of a function of such an effect, called by kernels alone; `nothing` is it in a `SmoothFilm`.
+
+    The film is its first argument.
+    """
+
+    def of(function: Callable[..., Any]) -> Any:
+        @wraps(function)
+        def called(*given: Any) -> Any:
+            raise NotImplementedError("compiled functions alone call it")
+
+        @overload(called, jit_options=_OPTIONS, strict=False)
+        def chosen(film: Any, *others: Any) -> Callable[..., Any]:
+            held = getattr(film, "held", film)
+            return nothing if held.instance_class is SmoothFilm else function
+
+        return called
+
+    return of
