@@ -19,7 +19,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
-from loadflow.stages.effects.situation import situation
+from loadflow.stages.effects.situation import points, situation
 from loadflow.stages.film_of_bearing import (
     equilibria,
     follow,
@@ -75,19 +75,17 @@ def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
     A parked one has no speed: it counts with its load, or if all are parked. Of given series only
     the wind speed is known: the lowest and the highest are taken.
     """
-    first = {case.wind_speed: case for case in reversed(cases)}
-    speeds = sorted(first)
+    found = points(cases)
     if scene.loads.source == "files":
-        places = [0, len(speeds) - 1]
+        places = [0, len(found) - 1]
     else:
         at = situation(scene, cases)
         bearings = at.bearings.values()
-        parked = np.array([is_parked(first[speed]) for speed in speeds])
-        per_speed = np.max([one.radial for one in bearings], axis=0) / at.speed
-        steady = np.where(parked & ~parked.all(), 0.0, per_speed)
+        load, turns = np.max([one.radial for one in bearings], axis=0), at.turns | ~at.turns.any()
+        steady = np.where(turns, load / np.where(at.turns, at.speed, 1.0), 0.0)
         largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
         places = [int(np.argmax(steady)), int(np.argmax(largest))]
-    return [first[speeds[place]] for place in dict.fromkeys(places)]
+    return [found[place] for place in dict.fromkeys(places)]
 
 
 def _of_rotor(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
