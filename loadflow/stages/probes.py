@@ -62,11 +62,13 @@ class Probe:
     """How a model is probed: the stages whose series it reads, and what it answers.
 
     It is not asked in a case in which it cannot answer, and the effects stand by their indicators.
+    What has another way where the first finds no answer `surely_answers`, with all effects on.
     """
 
     reads: tuple[str, ...]
     answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
     can_answer: Callable[[Case, Mapping[str, Any]], bool] = lambda case, inputs: True
+    surely_answers: bool = False
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
@@ -256,7 +258,7 @@ PROBES: dict[str, Probe] = {
     "loads": Probe((), _of_rotor),
     "shaft": Probe(("loads",), _of_shaft),
     "journal": Probe(("loads", "shaft"), _of_film, _film_forms),
-    "thrust": Probe(("loads", "shaft"), _of_collars),
+    "thrust": Probe(("loads", "shaft"), _of_collars, surely_answers=True),
     "rolling": Probe(("loads", "shaft"), _of_contacts),
 }
 """By model; effects of models that have none are told by their indicators alone."""

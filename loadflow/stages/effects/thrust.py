@@ -27,6 +27,9 @@ COSTS = {"tilt": {"curve": 3.1, "grid": 4.5}, "heat": {"curve": 1.0, "grid": 6.0
 """Time of films with an effect over that without, by rung: of 20,000 samples on a curve, its table
 included, and of one sample on the grid; docs/thrust.md."""
 
+DOUBT = 2.0
+"""Factor by which indicators of collars may be off: of the largest pressure; docs/accuracy.md."""
+
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
 Of = Callable[[Situation, ThrustCollar, BearingLoad, int, DoubleThrustResult], Sizes]
@@ -168,6 +171,7 @@ HEAT = Effect(
     needs="a table heat of the thrust bearing with the oil and the temperature at which it enters",
     concerns=_has_collars,
     cost=cost_of("heat"),
+    doubt=DOUBT,
 )
 
 
@@ -202,6 +206,7 @@ TILT = Effect(
     needs="thrust.tilt = true, with a beam as the shaft; pads that follow it lose less",
     concerns=_has_collars,
     cost=cost_of("tilt"),
+    doubt=DOUBT,
 )
 
 
