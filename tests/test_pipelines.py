@@ -14,7 +14,6 @@ from loadflow.journal import LocalShell
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene, read_scene
-from loadflow.stages.effects.film import TILT
 from loadflow.wind import LOAD_CASES
 
 PIPELINES = sorted((Path(__file__).parents[1] / "pipelines").glob("*.toml"))
@@ -191,9 +190,8 @@ def test_rotors_that_stand_or_idle_run_to_the_end_by_the_defaults(dlc, tmp_path)
     turns = table["largest_pressure"].notnull()  # of samples in which the shaft turns
     assert turns.all() if dlc == "6.4" else not turns.any()
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
-    measured = TILT.name in manifest["pilot"]["sizes"]
-    assert measured == (dlc == "6.4")
-    assert ("journal" in manifest["refined"]) <= measured  # cells help no shaft that stands
+    if dlc != "6.4":
+        assert "journal" not in manifest["refined"]  # cells help no shaft that stands
 
 
 def test_the_report_ranks_ultimate_loads_with_their_safety_factors(tmp_path):

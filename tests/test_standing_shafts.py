@@ -118,13 +118,17 @@ def test_starts_and_stops_are_asked_as_long_as_a_film_carries(dlc, turned, monke
 
 
 def test_a_parked_case_is_asked_only_beside_others_that_turn():
+    """With a blade stuck it has the largest load, with feathered blades less than while running."""
     loads = {"wind_speeds": [12.0, 50.0], "yaw_errors": [0.0]}
-    mixed = [replace(case, dlc="6.1" if case.wind_speed > 25 else "1.1") for case in cases(**loads)]
-    steady, *largest = probes.hardest(scene_of("1.1"), tuple(mixed))
-    assert steady.dlc == "1.1"
-    assert [case.dlc for case in largest] == ["6.1"]
-    parked = tuple(case for case in mixed if case.dlc == "6.1")
-    assert probes.hardest(scene_of("6.1"), parked) == [*parked]
+    for dlc, loaded in (("7.1", ["7.1"]), ("6.1", [])):
+        mixed = [
+            replace(case, dlc=dlc if case.wind_speed > 25 else "1.1") for case in cases(**loads)
+        ]
+        steady, *largest = probes.hardest(scene_of("1.1"), tuple(mixed))
+        assert steady.dlc == "1.1"
+        assert [case.dlc for case in largest] == loaded
+        parked = tuple(case for case in mixed if case.dlc == dlc)
+        assert probes.hardest(scene_of(dlc), parked) == [*parked]
 
 
 def cases(**loads):

@@ -39,10 +39,6 @@ SOLVED = 1.0
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
 
-SURE = 4.0
-"""Error of an answer over that allowed, by an indicator, above which nobody doubts that the effect
-is needed: indicators are good to a factor of two, and were never off by this one."""
-
 
 @dataclass(frozen=True)
 class Effort:
@@ -248,23 +244,27 @@ def _to_decide(
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Names of the effects of which something is to decide, and of those among them to keep.
 
-    These are effects that cost nothing, and such as all indicators of their model leave no doubt
-    of; a model with no others is not asked.
+    These are effects that cost nothing, and such as their indicators leave no doubt of. A model
+    with no others is not asked, if it surely answers with all of them.
     """
     sure = {one.name for one in effects if _is_needed(scene, chosen, known, one)}
-    free = {one.name for one in effects if _costs_nothing(chosen, one, cases)}
-    doubtful = {one.model for one in effects if one.name not in sure}
-    asked = tuple(one.name for one in effects if one.model in doubtful)
-    return asked, tuple(name for name in asked if name in sure | free)
+    settled = sure | {one.name for one in effects if _costs_nothing(chosen, one, cases)}
+    open_ = {
+        one.model
+        for one in effects
+        if one.name not in (settled if PROBES[one.model].surely_answers else sure)
+    }
+    asked = tuple(one.name for one in effects if one.model in open_)
+    return asked, tuple(name for name in asked if name in settled)
 
 
 def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) -> bool:
-    """Whether an answer without the effect, by its indicator, is off by `SURE` times too much."""
+    """Whether an answer without the effect is off by more than is allowed, beyond any doubt."""
     without = switched(chosen, effect, False)
     if not effect.is_on(chosen) or without is None:
         return False
     return any(
-        part.effect is effect and (part.share or 0.0) > SURE * scene.allowed(result)
+        part.effect is effect and (part.share or 0.0) > effect.doubt * scene.allowed(result)
         for result in scene.results
         for name, links in giving(result).results[result](without).items()
         for part in contributions(without, result, name, links, known)

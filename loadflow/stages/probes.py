@@ -19,7 +19,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
-from loadflow.stages.effects.situation import situation
+from loadflow.stages.effects.situation import points, situation
 from loadflow.stages.film_of_bearing import (
     equilibria,
     follow,
@@ -62,11 +62,13 @@ class Probe:
     """How a model is probed: the stages whose series it reads, and what it answers.
 
     It is not asked in a case in which it cannot answer, and the effects stand by their indicators.
+    What has another way where the first finds no answer `surely_answers`, with all effects on.
     """
 
     reads: tuple[str, ...]
     answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
     can_answer: Callable[[Case, Mapping[str, Any]], bool] = lambda case, inputs: True
+    surely_answers: bool = False
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
@@ -75,19 +77,17 @@ def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
     A parked one has no speed: it counts with its load, or if all are parked. Of given series only
     the wind speed is known: the lowest and the highest are taken.
     """
-    first = {case.wind_speed: case for case in reversed(cases)}
-    speeds = sorted(first)
+    found = points(cases)
     if scene.loads.source == "files":
-        places = [0, len(speeds) - 1]
+        places = [0, len(found) - 1]
     else:
         at = situation(scene, cases)
         bearings = at.bearings.values()
-        parked = np.array([is_parked(first[speed]) for speed in speeds])
-        per_speed = np.max([one.radial for one in bearings], axis=0) / at.speed
-        steady = np.where(parked & ~parked.all(), 0.0, per_speed)
+        load, turns = np.max([one.radial for one in bearings], axis=0), at.turns | ~at.turns.any()
+        steady = np.where(turns, load / np.where(at.turns, at.speed, 1.0), 0.0)
         largest = np.max([one.radial + one.swing + one.turn for one in bearings], axis=0)
         places = [int(np.argmax(steady)), int(np.argmax(largest))]
-    return [first[speeds[place]] for place in dict.fromkeys(places)]
+    return [found[place] for place in dict.fromkeys(places)]
 
 
 def _of_rotor(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
@@ -258,7 +258,7 @@ PROBES: dict[str, Probe] = {
     "loads": Probe((), _of_rotor),
     "shaft": Probe(("loads",), _of_shaft),
     "journal": Probe(("loads", "shaft"), _of_film, _film_forms),
-    "thrust": Probe(("loads", "shaft"), _of_collars),
+    "thrust": Probe(("loads", "shaft"), _of_collars, surely_answers=True),
     "rolling": Probe(("loads", "shaft"), _of_contacts),
 }
 """By model; effects of models that have none are told by their indicators alone."""

@@ -55,6 +55,8 @@ class Effect:
         Scene with the effect on → what makes series that its probe reads into such in which it has
         no size: so a pilot asks what leaving it out changes on loops that are compiled anyway. None
         where the scene without it is asked.
+    doubt : float
+        Factor by which the indicator may be off.
     """
 
     name: str
@@ -71,6 +73,7 @@ class Effect:
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
+    doubt: float = 4.0
 
     @property
     def section(self) -> str:

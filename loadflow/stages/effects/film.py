@@ -61,7 +61,7 @@ def _motion(at: Situation) -> Sizes:
 
     A short cylindrical film answers a load that turns at Ω with 1/|1 − 2Ω/ω| of its displacement
     at rest, one that swings with the mean of both senses. `THREE_P` of the swing comes as blades
-    pass; the rest is slow.
+    pass; the rest is slow. Nothing of a shaft that stands, which rests on its shell.
     """
     ratio = at.turbine.rotor.blades
     left = 0.5 * (1 / abs(1 - 2 * ratio) + 1 / (1 + 2 * ratio))
@@ -69,6 +69,7 @@ def _motion(at: Situation) -> Sizes:
     for name, film in at.films.items():
         load = at.bearings[name]
         change = THREE_P * (1 - left) * load.swing / np.maximum(load.radial + load.swing, 1.0)
+        change = np.where(at.turns, change, 0.0)
         gain = gains()["journal"]
         found.append(
             worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
@@ -206,11 +207,16 @@ SHELL = Effect(
 
 
 def _contact(at: Situation) -> Sizes:
-    """Share of the load that asperities take of surfaces as rough as the scene says."""
+    """Share of the load that asperities take of surfaces as rough as the scene says.
+
+    All of it where the shaft stands throughout.
+    """
     found = []
     for place, film in at.films.items():
         rough = ROUGHNESS * at.scene.journal.at(place).contact_film
-        share = float(np.max(asperity_share(film.minimum_film, rough)))
+        turns = at.turns
+        share = float(asperity_share(film.minimum_film[turns], rough).max(initial=0.0))
+        share = share if turns.any() else 1.0
         names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
         found.append(dict.fromkeys(names, share))
     return largest(found)

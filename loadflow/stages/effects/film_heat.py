@@ -34,14 +34,13 @@ def _heat(at: Situation) -> Sizes:
     """What the warming of the oil takes off its viscosity: T − T_in = P/(2 ρ c_p Q).
 
     Adiabatic, at the mean load. The film feels load over viscosity, and its friction is nearly
-    proportional to viscosity.
+    proportional to viscosity. Nothing warms where the shaft stands.
     """
     journal, found = at.scene.journal, []
     for name in journal.bearings:
         film = at.film(name, share=0.0)
-        carried = 2.0 * journal.lubricant.density * HEAT_CAPACITY * film.side_flow
-        oil = lubricant(MODEL_OIL)
-        thinner = np.exp(-oil.steepness(_inlet(at.scene)) * film.friction_power / carried)
+        warmer = film.warming(2.0 * journal.lubricant.density * HEAT_CAPACITY)
+        thinner = np.exp(-lubricant(MODEL_OIL).steepness(_inlet(at.scene)) * warmer)
         gain = gains()["journal"]
         eccentricity = thinner ** -gain["eccentricity ratio"] - 1.0
         power = float(np.nanmax(1.0 - thinner))
@@ -124,7 +123,7 @@ def _growth(at: Situation) -> Sizes:
         own, film = at.scene.journal.at(name), at.film(name, share=0.0)
         heat = own.heat or Heat()
         carried = 2.0 * heat.lubricant(heat.inlet_temperature).density * HEAT_CAPACITY
-        warm = heat.inlet_temperature + film.friction_power / (carried * film.side_flow)
+        warm = heat.inlet_temperature + film.warming(carried)
         radius, ambient = own.geometry.radius, _surroundings(heat)
         growth = heat.growth
         if isinstance(growth, RingGrowth):

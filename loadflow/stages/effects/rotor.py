@@ -72,9 +72,9 @@ def _switch(
 
 
 def _inflow(at: Situation) -> Sizes:
-    """The induction that lags behind the load: a = (1 − √(1 − c_T))/2, c_T = min(0.8, 7/V)."""
-    thrust = np.minimum(0.8, 7.0 / at.wind_speed)
-    return _of_loads(LAG * float(np.max(0.5 * (1.0 - np.sqrt(1.0 - thrust)))))
+    """The induction that lags behind the load: a = (1 − √(1 − c_T))/2."""
+    induction = 0.5 * (1.0 - np.sqrt(1.0 - at.thrust_coefficient))
+    return _of_loads(LAG * float(np.max(induction)))
 
 
 INFLOW = _switch(
@@ -166,13 +166,18 @@ def _twists(scene: Scene) -> bool:
 
 
 def _torsion(at: Situation) -> Sizes:
-    """Turn under the moment of the airfoils and a lift coefficient of 1, at rated speed."""
+    """Turn under the moment of the airfoils and a lift coefficient of 1, at rated speed.
+
+    Of a rotor that does not run, in the wind and at the speed that it has.
+    """
     turbine, blade = at.turbine, at.turbine.blade
     foils = [turbine.airfoils[name] for name in blade.airfoil]
     still = np.array([np.interp(0.1, f.angle, f.moment) if f.moment.size else 0 for f in foils])
     span = blade.radius - turbine.rotor.hub_radius
     ahead = np.interp(span, blade.torsion_span, blade.centre_ahead)
     speed = turbine.rated_speed * blade.radius
+    if at.scene.loads.source == "simulate" and not _runs(at.scene):
+        speed = np.hypot(np.max(at.speed) * blade.radius, np.max(at.wind_speed))
     couple = 0.5 * AIR_DENSITY * speed**2 * blade.chord * (still * blade.chord + ahead)
     torque = np.cumsum((couple * np.gradient(span))[::-1])[::-1]
     rigidity = np.interp(span, blade.torsion_span, blade.torsion_stiffness)

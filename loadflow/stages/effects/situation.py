@@ -1,9 +1,10 @@
 """Loads and films of a scene, estimated before anything is solved: the basis of indicators.
 
 For simulated loads these are closed forms: thrust after [Frandsen 2007], c_T = 7/V; the rotor's
-weight; moments that swing with the turbulence, three standard deviations either way. Given series
-are read. Films of journal bearings are those of the closed charts of ISO 7902, those of thrust
-collars are solved on few cells.
+weight; moments that swing with the turbulence, three standard deviations either way. A rotor that
+is parked stands, one that idles turns as slowly as its feathered blades have it, and the wind finds
+little hold on either. Given series are read. Films of journal bearings are those of the closed
+charts of ISO 7902, those of thrust collars are solved on few cells.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from loadflow.errors import LoadflowError
 from loadflow.journal import DoubleThrustBearing, DoubleThrustResult
@@ -24,7 +26,9 @@ from loadflow.shaft import Beam, Concept, bearing_loads, pitch_loads, yaw_loads
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
+from loadflow.stages.turning import SLOWEST, is_parked
 from loadflow.turbines import Turbine, load_turbine
+from loadflow.wind.cases import LOAD_CASES, STANDING
 
 Floats = np.ndarray
 
@@ -41,6 +45,15 @@ FEW = (12, 6)
 """Cells of a pad: the film is within 1 % of that of the finest grid."""
 
 TIP_SPEED_RATIO = 7.5
+IDLING = 0.6
+"""Share of the radius whose section sees no lift as the rotor idles, so that its speed is
+V/(share R tan(pitch)): within a tenth of series of the NREL 5 MW and the IEA 15 MW turbine at 2 to
+34 m/s."""
+FEATHERED_THRUST = 0.0015
+"""Thrust coefficient of a rotor with feathered blades; NREL 5 MW, idling at 34 and parked at 50
+m/s."""
+FEATHERED_SWING = 1.0 / 12.0
+"""`SWING` of a rotor with feathered blades over that of one that runs; NREL 5 MW, 8 to 50 m/s."""
 AIR_DENSITY = 1.225  # kg/m³
 GRAVITY = 9.80665  # m/s²
 DEVIATIONS = 3.0
@@ -89,13 +102,24 @@ CHART_WIDTHS = 1 / 8, 1.0
 
 @dataclass(frozen=True)
 class Film:
-    """Film of a journal bearing at each of the points (n,), by closed charts."""
+    """Film of a journal bearing at each of the points (n,), by closed charts.
+
+    Where no point turns, the shaft rests on its shell: the gap is that at which surfaces touch, the
+    load is spread as a cosine over half of the bore, and nothing flows or rubs. Beside points that
+    turn, those that stand have no film (NaN), and nothing is told of them.
+    """
 
     eccentricity_ratio: Floats
     minimum_film: Floats
     maximum_pressure: Floats
     friction_power: Floats
     side_flow: Floats
+
+    def warming(self, carried: float | Floats) -> Floats:
+        """Rise of its temperature, K, by `carried` J/(m³ K); none where it stands."""
+        rubs = self.friction_power > 0.0
+        flow = carried * np.where(rubs, self.side_flow, 1.0)
+        return np.asarray(np.where(rubs, self.friction_power, 0.0) / flow)
 
 
 @dataclass(frozen=True)
@@ -109,9 +133,11 @@ class Situation:
     wind_speed, turbulence : ndarray, shape (n,)
         m/s; standard deviation over the mean.
     speed : ndarray, shape (n,)
-        Of the rotor, rad/s.
+        Of the rotor, rad/s; 0 of one that is parked.
     bearings : dict
         Loads of each bearing of the shaft.
+    thrust_coefficient : ndarray, shape (n,)
+        Of the rotor in the mean wind.
     """
 
     scene: Scene
@@ -119,6 +145,12 @@ class Situation:
     turbulence: Floats
     speed: Floats
     bearings: dict[str, BearingLoad]
+    thrust_coefficient: Floats
+
+    @property
+    def turns(self) -> NDArray[np.bool_]:
+        """Whether the rotor turns, (n,)."""
+        return np.asarray(self.speed != 0.0)
 
     @cached_property
     def turbine(self) -> Turbine:
@@ -155,15 +187,28 @@ class Situation:
         specific load.
         """
         journal, load = self.scene.journal, self.bearings[name]
+        radial = load.radial + share * load.swing
+        if not self.turns.any():
+            return self._resting(name, radial)
         held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
         size = journal.geometry
         width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
         bearing = replace(size, shape=CYLINDER, relief=(), width=width)
-        radial = (load.radial + share * load.swing) * width / size.width
-        force = np.stack([radial, np.zeros_like(radial)], axis=-1)
-        found = bearing.equilibrium(force, self.speed, held.lubricant, rung="chart", strict=False)
-        film = Film(*(np.asarray(getattr(found, name)) for name in Film.__dataclass_fields__))
-        return replace(film, friction_power=film.friction_power * size.width / width)
+        radial = radial[self.turns] * width / size.width
+        force, speed = np.stack([radial, np.zeros_like(radial)], axis=-1), self.speed[self.turns]
+        film = bearing.equilibrium(force, speed, held.lubricant, rung="chart", strict=False)
+        columns = {name: np.full(self.speed.shape, np.nan) for name in Film.__dataclass_fields__}
+        for one, values in columns.items():
+            values[self.turns] = getattr(film, one)
+        columns["friction_power"] *= size.width / width
+        return Film(**columns)
+
+    def _resting(self, name: str, radial: Floats) -> Film:
+        """What a shaft rests on that stands at all points."""
+        own, size = self.scene.journal.at(name), self.scene.journal.geometry
+        gap, nothing = np.full(radial.shape, own.contact_film), np.zeros(radial.shape)
+        pressed = own.edge_pressure + 4.0 / np.pi * radial / (size.diameter * size.width)
+        return Film(1.0 - gap / size.clearance, gap, pressed, nothing, nothing.copy())
 
 
 @lru_cache(maxsize=256)
@@ -185,13 +230,24 @@ def situation(scene: Scene, cases: Iterable[Case]) -> Situation:
     scene : Scene
         What is wanted.
     cases : iterable of Case
-        Its load cases; of each wind speed the first counts, of given series the middle one.
+        Its load cases; those of `points` count, of given series the middle one.
     """
-    found = {case.wind_speed: case for case in reversed([*cases])}
+    found = points(cases)
     if scene.loads.source == "files":
-        speeds = sorted(found)
-        return _of_series(scene, found[speeds[len(speeds) // 2]])
-    return _of_wind(scene, [found[speed] for speed in sorted(found)])
+        return _of_series(scene, found[len(found) // 2])
+    return _of_wind(scene, found)
+
+
+def points(cases: Iterable[Case]) -> list[Case]:
+    """Return the first case of each wind speed and state of the rotor, by wind speed."""
+    first = {(case.wind_speed, _state(case)): case for case in reversed([*cases])}
+    return [first[place] for place in sorted(first)]
+
+
+def _state(case: Case) -> str:
+    """What the rotor does throughout: it is parked, has a blade stuck besides, idles; or none."""
+    event = LOAD_CASES[case.dlc].events[0] if case.dlc in LOAD_CASES else ""
+    return event if event in STANDING else ""
 
 
 def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
@@ -199,11 +255,21 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
     wind = np.array([case.wind_speed for case in cases])
     turbulence = np.array([_turbulence(scene, case) for case in cases])
     rotor, control = turbine.rotor, turbine.control
+    parked, idles = (
+        np.array([of(case) for case in cases])
+        for of in (is_parked, lambda case: _state(case) == "idling")
+    )
+    feathered = idles | np.array([_state(case) == "parked" for case in cases])
     rated = control.rated_speed / turbine.drivetrain.gear_ratio
-    speed = np.minimum(TIP_SPEED_RATIO * wind / rotor.radius, rated)
+    pitch = turbine.supervision.idling_pitch
+    slow = wind / (IDLING * rotor.radius * np.tan(pitch))
+    speed = np.minimum(np.where(idles, slow, TIP_SPEED_RATIO * wind / rotor.radius), rated)
+    speed = np.where(parked, 0.0, speed)
     area = np.pi * rotor.radius**2
-    thrust = 0.5 * AIR_DENSITY * area * wind**2 * np.minimum(0.8, 7.0 / wind)
+    coefficient = np.where(feathered, FEATHERED_THRUST, np.minimum(0.8, 7.0 / wind))
+    thrust = 0.5 * AIR_DENSITY * area * wind**2 * coefficient
     deviation = SWING * AIR_DENSITY * area * rotor.radius * wind**2 * turbulence
+    deviation = deviation * np.where(feathered, FEATHERED_SWING, 1.0)
     parts = [
         _on_bearings(
             scene,
@@ -221,7 +287,7 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
         name: replace(load, surge=DEVIATIONS * SURGE * turbulence * np.abs(load.force[:, 0]))
         for name, load in bearings.items()
     }
-    return Situation(scene, wind, turbulence, speed, bearings)
+    return Situation(scene, wind, turbulence, speed, bearings, coefficient)
 
 
 def _turbulence(scene: Scene, case: Case) -> float:
@@ -340,5 +406,8 @@ def _of_series(scene: Scene, case: Case) -> Situation:
     tilt = load_turbine(scene.turbine.name).rotor.tilt
     parts = _on_bearings(scene, tilt, force, moment, root)
     bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
-    speed = np.array([max(abs(float(series["speed"].mean())), 1e-3)])
-    return Situation(scene, np.array([case.wind_speed]), np.array([GUST]), speed, bearings)
+    mean = float(np.abs(series["speed"]).mean())
+    speed = np.array([0.0 if is_parked(case) or mean < SLOWEST else mean])
+    wind = np.array([case.wind_speed])
+    thrust = np.minimum(0.8, 7.0 / np.maximum(wind, 1e-3))
+    return Situation(scene, wind, np.array([GUST]), speed, bearings, thrust)

@@ -32,6 +32,9 @@ COSTS = {
 steps on a table, which the ladder counts once, and of one sample on the grid. Measured by ``python
 -m benchmarks.references.collar_costs``; docs/thrust.md."""
 
+DOUBT = 2.0
+"""Factor by which indicators of collars may be off: of the largest pressure; docs/accuracy.md."""
+
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
 Of = Callable[[Situation, ThrustCollar, BearingLoad, int, DoubleThrustResult], Sizes]
@@ -39,13 +42,16 @@ Of = Callable[[Situation, ThrustCollar, BearingLoad, int, DoubleThrustResult], S
 
 
 def _worst(of: Of) -> Callable[[Situation], Sizes]:
-    """The largest sizes over all collars and points; 1 where no film carries a load."""
+    """The largest sizes over all collars and points; 1 where no film carries a load.
+
+    0 where the collar stands, by standstill: it has no film, and no answer of one to move.
+    """
 
     def indicator(at: Situation) -> Sizes:
         found = [
             of(at, at.scene.thrust.collars[place], at.bearings[place], k, film)
             if film is not None
-            else dict.fromkeys(_QUANTITIES, 1.0)
+            else dict.fromkeys(_QUANTITIES, float(at.turns[k]))
             for place, films in at.collars.items()
             for k, film in enumerate(films)
         ]
@@ -75,7 +81,8 @@ def _motion(
 ) -> Sizes:
     """What squeeze takes out of the swing of the thrust as blades pass: 1 − 1/√(1 + (Ω C/K)²).
 
-    `THREE_P` of the swing comes at Ω, the passing of the blades; the rest is slow.
+    `THREE_P` of the swing comes at Ω, the passing of the blades; the rest is slow. Nothing of a
+    collar that stands.
     """
     passing = at.turbine.rotor.blades * at.speed[k]
     left = 1.0 / np.hypot(1.0, passing * film.damping / film.stiffness)
@@ -111,7 +118,7 @@ def _heat(
 
     Adiabatic: a pad warms its oil by D = P/(ρ c_p Q). Of what leaves at its end λ enters the
     next pad, so that with s of the oil leaving there it enters λ s D/(1 − λ s) warmer than it
-    is fed, and the film is half of D warmer still.
+    is fed, and the film is half of D warmer still. Nothing warms where the collar stands.
     """
     hard = max((film.front, film.back), key=lambda row: row.force)
     heat = collar.heat or PadHeat(oil=oil_of(collar.lubricant))
@@ -175,6 +182,7 @@ HEAT = Effect(
     needs="a table heat of the thrust bearing with the oil and the temperature at which it enters",
     concerns=_has_collars,
     cost=cost_of("heat"),
+    doubt=DOUBT,
 )
 
 
@@ -209,6 +217,7 @@ TILT = Effect(
     needs="thrust.tilt = true, with a beam as the shaft; pads that follow it lose less",
     concerns=_has_collars,
     cost=cost_of("tilt"),
+    doubt=DOUBT,
 )
 
 
