@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import common
+from benchmarks.ladder import physics
 
 ROOT = common.ROOT
 FOLDERS = ("ladder", "peers", "references", "robustness")
@@ -68,3 +69,28 @@ def test_what_is_between_two_marks_of_a_page_is_replaced(tmp_path):
     for text in ("new", "newer"):
         common.put(page, "<!-- a -->", "<!-- b -->", text)
         assert page.read_text(encoding="utf-8") == f"before <!-- a -->\n{text}\n<!-- b --> after"
+
+
+def test_a_part_of_the_page_of_physics_that_was_killed_goes_on_where_it_was(tmp_path, monkeypatch):
+    asked = []
+
+    def part(known):
+        for k in range(len(known), 3):
+            asked.append(k)
+            yield {"k": k}
+            if asked == [0, 1]:
+                raise KeyboardInterrupt
+
+    monkeypatch.setattr(physics, "BEGUN", tmp_path)
+    monkeypatch.setitem(physics.PARTS, "toy", part)
+    with pytest.raises(KeyboardInterrupt):
+        physics.measured("toy")
+    assert physics.measured("toy") == [{"k": 0}, {"k": 1}, {"k": 2}]
+    assert asked == [0, 1, 2]
+
+
+def test_the_page_of_physics_has_the_numbers_that_are_kept_beside_it():
+    kept = physics.kept_so_far()
+    page = physics.PAGE.read_text(encoding="utf-8")
+    assert physics.size_table(physics.joined(kept)) in page
+    assert physics.scene_table(kept["scenes"]) in page

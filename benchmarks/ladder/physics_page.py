@@ -7,7 +7,7 @@ from typing import Any
 import matplotlib.pyplot as plt
 
 from benchmarks.common import ROOT, head, row
-from benchmarks.ladder.physics_sizes import SPEEDS, TURBINES
+from benchmarks.ladder.physics_sizes import NO_ANSWER, SPEEDS, TURBINES
 from benchmarks.ladder.whole_runs import ALL_SPEEDS, BEST, DEFAULT
 from benchmarks.ladder.whole_runs import SPEEDS as RUN_AT
 from loadflow.quantities import percent
@@ -53,7 +53,7 @@ def size_table(measured: list[dict[str, Any]]) -> str:
         for turbine in TURBINES:
             at = {one["speed"]: one for one in measured if one["turbine"] == turbine}
             cells = [
-                "refused"
+                (NO_ANSWER if at[speed]["refused"][effect] == NO_ANSWER else "refused")
                 if effect in at[speed]["refused"]
                 else largest(at[speed]["sizes"].get(effect, {}))
                 if speed in at

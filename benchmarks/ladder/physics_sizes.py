@@ -28,6 +28,8 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects import film as film_effects
 from loadflow.stages.effects import film_heat
 from loadflow.stages.effects import shaft as shaft_effects
+from loadflow.stages.effects.effect import Effect
+from loadflow.stages.effects.rolling import SLICED
 from loadflow.stages.effects.rotor import LATERAL
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.probes import PROBES, Answers
@@ -41,13 +43,13 @@ TURBINES = ("windpact-1.5mw", "nrel-5mw", "iea-15mw")
 Found = Iterable[dict[str, Any]]
 """What a part has measured; each takes what is known of it, and yields the rest."""
 
+FILM_ALONE = ["journal.film"]
 RESULTS = ["loads.statistics", "journal.film", "rolling.loads", "rolling.life"]
 SHORT = {"duration": 60.0, "seeds": 1}
 THOROUGH = Effort(1, 60.0)
 """Of the pilot, whose scenes here are too short for one that simulates."""
 
 STEEL = 2.1e11  # Pa
-OF_FILMS = (film_effects.CONTACT.name, film_effects.SHELL.name, film_effects.TURBULENCE.name)
 REALISED = 6
 """Seeds of a wind speed where a mean over seeds is told."""
 
@@ -58,6 +60,9 @@ OVER_ROTOR = "turbulence that differs over the rotor"
 
 FED = 1e5
 """Pressure of the grooves above that of the bearing ends, Pa."""
+
+NO_ANSWER = "no answer"
+"""Of an effect with which, or without which, no film carries the shaft."""
 
 GROWTH = Growth(shell_share=film_heat.SHELL_SHARE)
 """Of shaft and shell of steel, the shell in a cooler housing."""
@@ -131,10 +136,10 @@ def scene_of(
     return Scene.model_validate(made | {"bearings": bearings} | keys)
 
 
-def _left(known: Found) -> Iterator[tuple[str, float]]:
+def _left(known: Found, speeds: tuple[float, ...] = SPEEDS) -> Iterator[tuple[str, float]]:
     """Turbines and wind speeds of which nothing is known yet."""
     there = {(one["turbine"], one["speed"]) for one in known}
-    yield from (place for place in product(TURBINES, SPEEDS) if place not in there)
+    yield from (place for place in product(TURBINES, speeds) if place not in there)
 
 
 def sizes(known: Found) -> Found:
@@ -158,14 +163,10 @@ def elements(known: Found) -> Found:
     """Measured size of profile and tilt of rollers in a sized tapered pair, as `sizes`."""
     for turbine, speed in _left(known):
         bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
-        places = {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
-        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
         made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
-        scene = Scene.model_validate(made | places | {"loads": loads, "accuracy": 0.02})
-        verdict = pilot(scene, effort=THOROUGH)
-        assert verdict is not None
-        rollers = {name: verdict.sizes[name] for name in verdict.sizes if "rollers" in name}
-        yield {"turbine": turbine, "speed": speed, "sizes": rollers}
+        made |= {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
+        made |= {"loads": _tabulated(speed), "accuracy": "given"}
+        yield _measured(turbine, speed, Scene.model_validate(made), SLICED)
 
 
 def films(known: Found) -> Found:
@@ -175,24 +176,16 @@ def films(known: Found) -> Found:
         wall = 0.1 * scene_of(turbine).journal.geometry.diameter
         shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
         film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
-        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-        results = ["journal.film"]
-        scene = scene_of(turbine, film=film, loads=loads, accuracy=0.02, results=results)
-        verdict = pilot(scene, effort=THOROUGH)
-        assert verdict is not None
-        ours = {one: verdict.sizes[one] for one in OF_FILMS if one in verdict.sizes}
-        print(turbine, speed, ours, flush=True)
-        yield {"turbine": turbine, "speed": speed, "sizes": ours}
+        effects = (film_effects.CONTACT, film_effects.SHELL, film_effects.TURBULENCE)
+        yield _measured(turbine, speed, _warm_film(turbine, speed, film), *effects)
 
 
 def oil(known: Found) -> Found:
     """Measured size of supply and growth of films that have them, as `sizes`.
 
-    Two axial grooves of 0.7 of the width at the sides, at 0.1 MPa above the bearing ends; shaft and
-    shell of steel, the shell with 0.9 of the rise of the film above 20 °C, at which the clearance
-    is that of the scene.
+    Two axial grooves of 0.7 of the width at the sides, at `FED` above the bearing ends; the
+    clearance of the scene is that at 20 °C.
     """
-    effects = (film_effects.SUPPLY, film_heat.GROWTH)
     for turbine, speed in _left(known):
         journal = scene_of(turbine).journal
         length, pressure = 0.7 * journal.geometry.width, journal.edge_pressure + FED
@@ -200,28 +193,45 @@ def oil(known: Found) -> Found:
             {"angle": angle, "length": length, "pressure": pressure}
             for angle in (math.pi / 2, -math.pi / 2)
         ]
-        heat = Heat(
-            film_heat.oil_of(journal.lubricant), growth=Growth(shell_share=film_heat.SHELL_SHARE)
-        )
-        film = {"supply": {"grooves": grooves}, "heat": heat, "lubricant": None}
-        film |= {"motion": "transient", "tilt": True, "rung": "reduced"}
-        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
-        results = ["journal.film"]
-        scene = scene_of(turbine, film=film, loads=loads, accuracy="given", results=results)
-        cases = tuple(list_cases(scene))
-        names = tuple(effect.name for effect in effects)
-        found = measure(Questions(scene, names, SHORT["duration"], cases), cases[0])
-        print(turbine, speed, found, flush=True)
-        yield {"turbine": turbine, "speed": speed, "sizes": found.sizes}
+        scene = _warm_film(turbine, speed, {"supply": {"grooves": grooves}}, GROWTH)
+        yield _measured(turbine, speed, scene, film_effects.SUPPLY, film_heat.GROWTH)
+
+
+def _warm_film(
+    turbine: str, speed: float, film: dict[str, Any], growth: Growth | None = None
+) -> Scene:
+    """Films of N and N2 in motion, warm, around a shaft that tilts, with more keys of theirs."""
+    oil = film_heat.oil_of(scene_of(turbine).journal.lubricant)
+    whole: dict[str, Any] = {"heat": Heat(oil, growth=growth), "lubricant": None, "rung": "reduced"}
+    whole |= {"motion": "transient", "tilt": True}
+    keys: dict[str, Any] = {"loads": _tabulated(speed), "accuracy": "given", "results": FILM_ALONE}
+    return scene_of(turbine, film=whole | film, **keys)
+
+
+def _tabulated(speed: float) -> dict[str, Any]:
+    """Loads of one short case of a rotor from tables."""
+    return {"wind_speeds": [speed], "rung": "tables"} | SHORT
+
+
+def _measured(turbine: str, speed: float, scene: Scene, *effects: Effect) -> dict[str, Any]:
+    """Sizes of some effects alone, in a scene that has all it is to have."""
+    cases = tuple(list_cases(scene))
+    names = tuple(effect.name for effect in effects)
+    found = measure(Questions(scene, names, THOROUGH.duration, cases), cases[0])
+    print(turbine, speed, found, flush=True)
+    silent = {name: NO_ANSWER for name in names if name not in found.sizes}
+    refused = {**silent, **found.refused}
+    return {"turbine": turbine, "speed": speed, "sizes": found.sizes, "refused": refused}
 
 
 def fed_back(known: Found) -> Found:
     """What is lost where the shaft stands on rigid bearings, not on the stiffness of its own.
 
-    Loads, and films around the shaft that lies so; each suspension of `SEATS` alone.
+    Loads, and films around the shaft that lies so; each suspension of `SEATS` alone. At two wind
+    speeds, as these films take long.
     """
-    for turbine, speed in _left(known):
-        loads = {"wind_speeds": [speed], "rung": "tables"} | SHORT
+    for turbine, speed in _left(known, speeds=(12.0, 24.0)):
+        loads = _tabulated(speed)
         sizes: dict[str, dict[str, float]] = {}
         hub = None
         for name, seat in SEATS.items():
@@ -351,12 +361,15 @@ def joined(kept: dict[str, Any]) -> list[dict[str, Any]]:
     measured = []
     for one in kept["sizes"]:
         place = one["turbine"], one["speed"]
-        more = {
-            name: size
+        parts = [one] + [
+            other
             for part in BESIDE
             for other in kept.get(part, [])
             if (other["turbine"], other["speed"]) == place
-            for name, size in other["sizes"].items()
+        ]
+        whole = {
+            key: {name: found for part in parts for name, found in part.get(key, {}).items()}
+            for key in ("sizes", "refused")
         }
-        measured.append(one | {"sizes": one["sizes"] | more})
+        measured.append(one | whole)
     return measured

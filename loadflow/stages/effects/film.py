@@ -319,6 +319,7 @@ SUPPLY = Effect(
     out="no journal.supply: the bearing ends stand in oil",
     needs="a table journal.supply",
     concerns=lambda scene: scene.journal.supply is not None,
+    cost=cost_of("supply"),
     rungs=("grid", "reduced"),
     partly=(
         (

@@ -11,6 +11,8 @@ COSTS = {
     "shell": {"reduced": (2.1, 1.5), "grid": (3.1, 3.1)},
     "contact": {"reduced": (2.3, 1.6), "grid": (1.8, 1.4)},
     "turbulence": {"reduced": (2.5, 2.7), "grid": (1.1, 1.1)},
+    "supply": {"reduced": (3.9, 3.1), "grid": (1.2, 1.2)},
+    "growth": {"reduced": (3.1, 1.3), "grid": (1.2, 1.0)},
 }
 """Time of a film with an effect over that without, at rest and in motion, by rung: measured by
 ``python -m benchmarks.references.film_effects`` and with ``--costs``; docs/journal.md. Two of them

@@ -13,6 +13,7 @@ from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import largest, worst
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.stage import with_settings
@@ -164,4 +165,5 @@ GROWTH = Effect(
     out="no journal.heat.growth: the clearance is the same at all temperatures",
     needs="a table journal.heat.growth with the expansion of shaft and shell",
     concerns=lambda scene: scene.journal.heat is not None,
+    cost=cost_of("growth"),
 )
