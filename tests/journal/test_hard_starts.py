@@ -181,3 +181,23 @@ def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypat
     with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K"):
         solve()
     assert len(asked) <= 8
+
+
+def test_a_free_groove_whose_iteration_diverges_ends_in_a_reason():
+    """Number 141 of any parts together: its first step leaves a film that is not finite."""
+    with pytest.raises(SolverError, match="touches the elastic shell"):
+        drawn("composed", 141)[1]()
+
+
+def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperatures(monkeypatch):
+    _, solve = drawn("composed", 131)
+    asked, rows = [], grid.equilibrium_rows
+
+    def counted(*arguments: Any) -> Any:
+        asked.append(arguments)
+        return rows(*arguments)
+
+    monkeypatch.setattr(grid, "equilibrium_rows", counted)
+    with pytest.raises(SolverError, match=r"no film at any temperature.*touches the elastic shell"):
+        solve()
+    assert len(asked) <= 8

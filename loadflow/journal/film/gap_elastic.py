@@ -192,10 +192,11 @@ class _Line(NamedTuple):
 
     def spread(self, weights: Array, rows: int) -> Array:
         """What `of` does, transposed: `weights` (places, m) given back to the rows (rows, m)."""
-        out = np.zeros((rows, weights.shape[1]))
-        np.add.at(out, self.low, (1.0 - self.share) * weights)
-        np.add.at(out, self.high, self.share * weights)
-        return out
+        columns = weights.shape[1]
+        places = np.append(self.low, self.high)[:, None] * columns + np.arange(columns)
+        parts = np.concatenate([(1.0 - self.share) * weights, self.share * weights])
+        sums: Array = np.bincount(places.ravel(), parts.ravel(), rows * columns).astype(float)
+        return sums.reshape(rows, columns)
 
 
 class Between(NamedTuple):

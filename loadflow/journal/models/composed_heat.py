@@ -44,7 +44,7 @@ from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
-from loadflow.journal.solvers.warm_mean import MeanHeat, in_balance, series_loads
+from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -329,24 +329,28 @@ def mean_around(
     """
     around = _Around(bearing, options, force, speed, line, limits)
     level = around.levels[0]
-    equation, some = around.equation(level), series_loads(speed.size)
+    equation, some = around.equation(level), SeriesLoads.of(speed.size)
     made: list[Made] = []
 
     def film_of(before: Solution | None) -> Solution:
         made.clear()
         spent, shown = 0, None
-        for index in some:
+        lost = []
+        for index in some.asked:
             films, own = around.film(index, level)
             solution = around.solution(films)
             spent += solution.iterations
             if shown is None or own is not None:
                 shown = solution
-            if own is not None:
+            if own is None:
+                lost.append(index)
+            else:
                 made.append(own)
+        some.leave(lost)
         assert shown is not None  # a series has loads
         return replace(shown, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:
         return equation.of(made, cells)
 
-    return in_balance(equation, film_of, heat_of, made, len(some)), equation.viscosity
+    return in_balance(equation, film_of, heat_of, made, some), equation.viscosity
