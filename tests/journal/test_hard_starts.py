@@ -201,3 +201,9 @@ def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperature
     with pytest.raises(SolverError, match=r"no film at any temperature.*touches the elastic shell"):
         solve()
     assert len(asked) <= 8
+
+
+def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
+    """It does on 120 × 24 cells, too, at the same time."""
+    with pytest.raises(SolverError, match=r"orbit stops at t = 0\.336.*; the shaft touches the b"):
+        drawn("composed", 181)[1]()

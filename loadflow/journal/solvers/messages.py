@@ -49,6 +49,21 @@ def narrowest_place(bearing: JournalGeometry, gap: BoreGap, position: Array) -> 
     )
 
 
+def touches(film: DiscreteFilm, solution: Solution) -> str:
+    """That the shaft has met a rigid bore where it lies aslant in it or has lobes; else nothing.
+
+    Of an aligned cylinder the cells alone say so: its film carries whatever comes.
+    """
+    if film.gap.axisymmetric or not has_touched(film, solution):
+        return ""
+    least, angle, _ = film.gap.closest(solution.position)
+    size = film.relative_clearance * film.radius
+    return (
+        f"; the shaft touches the bore, narrowest gap {least * size:.6g} m at "
+        f"{math.degrees(angle):.4g}° (radial clearance {size:.6g} m)"
+    )
+
+
 def why_unsolved(
     bearing: JournalGeometry,
     film: DiscreteFilm,

@@ -71,6 +71,8 @@ class SeriesLoads:
 
     every: list[int]
     left: set[int] = field(default_factory=set)
+    why: str = ""
+    """Why the last one has no film, where none has."""
 
     @classmethod
     def of(cls, count: int) -> SeriesLoads:
@@ -123,7 +125,7 @@ def in_balance(
         warm = coupled(equation, film_of, (warm.solution, warm.warmth), heat_of)
         fields += warm.iterations
     if not warm.converged or warm.warmth is None:
-        raise SolverError(f"orbit cannot start: {_no_mean(warm, len(found), len(loads.every))}")
+        raise SolverError(f"orbit cannot start: {_no_mean(warm, len(found), loads)}")
     asked = len(loads.every)
     if len(found) < (1.0 - LEFT_OUT) * asked:
         warnings.warn(
@@ -136,10 +138,10 @@ def in_balance(
     return MeanHeat(equation, warm.warmth, warm.residual, fields)
 
 
-def _no_mean(warm: WarmFilm, found: int, asked: int) -> str:
+def _no_mean(warm: WarmFilm, found: int, loads: SeriesLoads) -> str:
     """Why a series has no temperatures, how warm it gets, and what would help."""
     if warm.warmth is None and not warm.why:
-        return "no load of the series has a film at rest"
+        return f"no load of the series has a film at rest{loads.why}"
     why = no_warmth(warm) or "at the next temperatures no load of the series has a film at rest"
     reached, hot = "", True
     if warm.warmth is not None:
@@ -147,8 +149,8 @@ def _no_mean(warm: WarmFilm, found: int, asked: int) -> str:
         reached, hot = f", {hottest:.4g} K at the last", hottest > HOTTEST or warm.lost
     helps = "heat.shell_transfer, more clearance, more fresh oil" if hot else "other cells (grid)"
     return (
-        f"{why}; mean heat of {found} of {asked} loads of the series, {warm.iterations} fields of "
-        f"temperature{reached}: {helps} may help"
+        f"{why}; mean heat of {found} of {len(loads.every)} loads of the series, "
+        f"{warm.iterations} fields of temperature{reached}: {helps} may help"
     )
 
 
@@ -201,6 +203,8 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
             if solution.converged:
                 found[index] = worst = solution
         some.leave(set(asked) - set(found))
+        if not found:
+            some.why = f"; {statics.message(solution, loads[index])}"
         return replace(worst, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:
