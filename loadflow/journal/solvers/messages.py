@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,9 +54,10 @@ def touches(film: DiscreteFilm, solution: Solution) -> str:
 
     Of an aligned cylinder the cells alone say so: its film carries whatever comes.
     """
-    if film.gap.axisymmetric or not has_touched(film, solution):
+    gap = cast("BoreGap", film.gap)
+    if gap.axisymmetric or not has_touched(film, solution):
         return ""
-    least, angle, _ = film.gap.closest(solution.position)
+    least, angle, _ = gap.closest(solution.position)
     size = film.relative_clearance * film.radius
     return (
         f"; the shaft touches the bore, narrowest gap {least * size:.6g} m at "
