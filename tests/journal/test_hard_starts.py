@@ -207,3 +207,8 @@ def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
     """It does on 120 × 24 cells, too, at the same time."""
     with pytest.raises(SolverError, match=r"orbit stops at t = 0\.336.*; the shaft touches the b"):
         drawn("composed", 181)[1]()
+
+
+def test_a_warm_film_that_the_fast_rung_does_not_find_has_the_word_of_the_grid():
+    with pytest.raises(SolverError, match=r"load 0: the film gets hotter than 423\.15 K"):
+        drawn("composed", 125)[1]()

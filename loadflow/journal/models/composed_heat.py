@@ -25,6 +25,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.line import Line
+from loadflow.journal.models import grid
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
     DRAG,
@@ -236,7 +237,7 @@ def equilibrium(
         if not found.converged and last is not None:
             equation, films, found = _at_rest(around, n, None)
         if not found.converged and limits.strict:
-            why = no_warmth(found) or 'no film on rung = "reduced"; "grid" may have one'
+            why = no_warmth(found) or _why_by_grid(bearing, options, force, speed, line, limits, n)
             raise SolverError(f"load {n}: {why}")
         rows.append(_row(around, n, equation, films, found))
         if found.converged and found.warmth is not None:
@@ -256,6 +257,24 @@ def equilibrium(
         )
     converged = np.array([row["converged"] for row in rows])
     return answered_rows(converged, columns_of(rows))
+
+
+def _why_by_grid(
+    bearing: JournalGeometry,
+    options: Film,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    n: int,
+) -> str:
+    """Why the grid has no film for load `n` either, or that it has one."""
+    one = np.array([n])
+    try:
+        grid.equilibrium(bearing, options, force[one], speed[one], line.at(one), limits)
+    except SolverError as error:
+        return str(error).removeprefix("load 0: ")
+    return 'no film on rung = "reduced"; "grid" has one'
 
 
 def _at_rest(
