@@ -24,7 +24,7 @@ from loadflow.journal.rows import shaped, start_rows, starts_of
 from loadflow.journal.thermal import TOLERANCE, at_temperatures, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
-from loadflow.numerics.convergence import Control
+from loadflow.numerics.convergence import Control, Limits
 from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
@@ -160,18 +160,21 @@ class JournalBearing(JournalGeometry):
             force: Array,
             speed: Array,
             places: NDArray[np.int64],
+            how: Limits = each,
         ) -> dict[str, Any]:
-            found = model.equilibrium(grown, cold, force, speed, line.at(places), each)
+            found = model.equilibrium(grown, cold, force, speed, line.at(places), how)
             if starts is not None:  # a film that is a little warmer is near
                 starts[places] = start_rows(grown, found)
             return found
 
         share, at_rest = shares(weights, shape), at_temperatures(solve, self, film)
+        why = at_temperatures(partial(solve, how=limits), self, film)
         known = getattr(near, "temperature", None) if share is None else None
         start = None if known is None else np.broadcast_to(known, shape).ravel()
         answer = warm_film(
-            at_rest, loads, speeds, film, share, heat_tolerance, strict=limits.strict, start=start
-        )
+            at_rest, loads, speeds, film, share, heat_tolerance,
+            strict=limits.strict, start=start, why=why,
+        )  # fmt: skip
         thinnest = _hottest(film.heat, answer["temperature"])
         warn_if_turbulent(self, speeds, thinnest, film.turbulence)
         warn_if_unresolved(answer)

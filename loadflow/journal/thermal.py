@@ -37,7 +37,7 @@ TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
 
 _WITHIN = 4
-"""Temperatures that are tried before the largest one is."""
+"""Temperatures that are tried before the largest one is, or the coldest of a film that grows."""
 
 _AHEAD = 10.0
 """Where a film warms so much that its balance lies this many times farther than the temperature at
@@ -60,6 +60,7 @@ def warm_film(
     max_iterations: int = TRIES,
     strict: bool = True,
     start: Array | None = None,
+    why: AtRest | None = None,
 ) -> Columns:
     """Equilibrium of shaft, film and heat.
 
@@ -79,6 +80,8 @@ def warm_film(
         Raise for the first load without an answer.
     start : array (n,), optional
         Temperatures, K, that are tried first; that of the inlet by default.
+    why : callable, optional
+        As `at_rest`, raising why a load has no film: of one that has none at any temperature.
 
     Raises
     ------
@@ -104,6 +107,8 @@ def warm_film(
                 f"{head}balance: at {at:.6g} K the film still warms by {left:.3g} K, and at "
                 f"{warmth.fails[worst]:.6g} K it carries the load no more"
             )
+        if why is not None and np.isinf(left):
+            balance.explain(why, worst, float(at))
         raise SolverError(
             f"{head}balance below {HOTTEST} K; at {at:.4g} K it is off by {left:.2g} K"
         )
@@ -166,6 +171,20 @@ class _Balance:
             self.known[places[asked]] = temperature[asked]
         return {name: rows if rows is None else rows[places] for name, rows in self.kept.items()}
 
+    def explain(self, why: AtRest, place: int, temperature: float) -> None:
+        """Raise why the load at `place` has no film at a temperature, K, if `why` says so."""
+        one, warm = np.array([place]), np.array([temperature])
+        cold = self.heat.inlet_temperature
+        thinner = self.heat.liquid.viscosity(warm) / self.heat.liquid.viscosity(cold)
+        try:
+            why(self.force[one], self.speed[one] * thinner, one, warm)
+        except SolverError as error:
+            said = str(error).removeprefix("load 0: ")
+            raise SolverError(
+                f"load {place}: no film at any temperature; at {temperature:.4g} K it is that of "
+                f"{cold:.4g} K at {thinner[0]:.4g} times the speed: {said}"
+            ) from error
+
     def _film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:
         reference = self.heat.lubricant(self.heat.inlet_temperature)
         thinner = self.heat.liquid.viscosity(temperature) / reference.viscosity
@@ -196,6 +215,7 @@ class _Balance:
         before: tuple[Array, Array] | None = None
         reach, excess_low = np.full(count, -np.inf), np.zeros(count)  # of the balance, at `low`
         fails, tested = np.full(count, np.inf), np.zeros(count, dtype=bool)  # at the hottest
+        thins = heat.growth is None
         active, tries = np.arange(count), 0
         while active.size and tries < max_iterations:
             here = warm[active]
@@ -220,6 +240,10 @@ class _Balance:
             inside = (step > low[active]) & (step < high[active])
             at_end = (tries >= _WITHIN) & (high[active] == HOTTEST) & ~tested[active]
             aside = np.where(at_end, HOTTEST, 0.5 * (low[active] + high[active]))
+            # warmer oil is thinner: a load without a film at the coldest has none at all, mostly
+            # even in a bearing that grows
+            unknown = lost & (excess_low[active] == 0.0)
+            aside = np.where(unknown & (thins or tries >= _WITHIN), cold, aside)
             tested[active] |= at_end & ~inside
             balanced = residual[active] <= tolerance
             warm[active] = np.where(balanced, here, np.where(inside, step, aside))

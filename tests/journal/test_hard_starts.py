@@ -181,3 +181,34 @@ def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypat
     with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K"):
         solve()
     assert len(asked) <= 8
+
+
+def test_a_free_groove_whose_iteration_diverges_ends_in_a_reason():
+    """Number 141 of any parts together: its first step leaves a film that is not finite."""
+    with pytest.raises(SolverError, match="touches the elastic shell"):
+        drawn("composed", 141)[1]()
+
+
+def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperatures(monkeypatch):
+    _, solve = drawn("composed", 131)
+    asked, rows = [], grid.equilibrium_rows
+
+    def counted(*arguments: Any) -> Any:
+        asked.append(arguments)
+        return rows(*arguments)
+
+    monkeypatch.setattr(grid, "equilibrium_rows", counted)
+    with pytest.raises(SolverError, match=r"no film at any temperature.*touches the elastic shell"):
+        solve()
+    assert len(asked) <= 8
+
+
+def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
+    """It does on 120 × 24 cells, too, at the same time."""
+    with pytest.raises(SolverError, match=r"orbit stops at t = 0\.336.*; the shaft touches the b"):
+        drawn("composed", 181)[1]()
+
+
+def test_a_warm_film_that_the_fast_rung_does_not_find_has_the_word_of_the_grid():
+    with pytest.raises(SolverError, match=r"load 0: the film gets hotter than 423\.15 K"):
+        drawn("composed", 125)[1]()

@@ -13,6 +13,7 @@ from loadflow.journal import (
     MassConserving,
     RingGrowth,
 )
+from loadflow.journal.solvers.statics import Statics
 
 LOBES = JournalBearing(0.2, 0.15, 1e-3, shape=Lobes(2))
 LOAD, SPEED = (2e4, 3e3), 200.0
@@ -84,3 +85,27 @@ def test_loads_without_a_film_at_rest_are_told():
         LOBES.orbit(time, loads, 0.0, options)
     with pytest.raises(InputError, match="conserves mass"):
         LOBES.orbit(TIME, np.tile(LOAD, (17, 1)), SPEED, Film(heat=FilmHeat(), edge_pressure=2e4))
+
+
+def test_loads_without_a_film_are_asked_for_one_first_and_last(monkeypatch):
+    """Not at every field of temperature: where none carries them, that takes longest."""
+    options, asked, solve = film(GasMixture(1e4)), [], Statics.solve
+
+    def counted(self, index, *arguments):
+        asked.append(index)
+        return solve(self, index, *arguments)
+
+    monkeypatch.setattr(Statics, "solve", counted)
+    loads, speeds = np.tile(LOAD, (16, 1)), np.full(16, SPEED)
+    speeds[-1] = 0.0
+    path = LOBES.orbit(np.linspace(0.0, 0.01, 16), loads, speeds, options)
+    assert path.attrs["heat_iterations"] > 3
+    assert asked.count(15) == 2
+    assert asked.count(14) == path.attrs["heat_iterations"]
+
+
+def test_a_series_that_overheats_says_how_warm_and_what_helps():
+    time = np.linspace(0.0, 0.01, 16)
+    said = r"orbit cannot start: the film gets hotter than 423.15 K.*of 16 loads.*fields.*may help"
+    with pytest.raises(SolverError, match=said):
+        LOBES.orbit(time, np.tile(LOAD, (16, 1)), 20.0 * SPEED, film(GasMixture(1e4)))

@@ -235,6 +235,10 @@ class YieldingNodeLoad(GrowingNodeLoad):
     ) -> None:
         super().__init__(contact, gap, radius, mirrors, grooves)
         self._shell = gap
+        nx, nz = gap.mesh.shape
+        # what the nodes give to the cells: around, and across, where the last row stays
+        self._to_columns = self._between.around.matrix(nx).T.tocsr()
+        self._to_rows = self._between.across.matrix(nz + 1)[:, :nz].toarray()
 
     @property
     def _give(self) -> float:
@@ -245,9 +249,11 @@ class YieldingNodeLoad(GrowingNodeLoad):
         gaps, modes = self._gaps(position), self._modes
         relief = np.zeros(gaps.shape)
         self._touch(gaps, self._give, relief)
-        parts = self._unit * relief * modes.reach[:, :, None] * modes.lengths[:, None, :]
-        shape = self._shell.mesh.shape
-        return np.array([self._between.back(part, shape) for part in parts])
+        parts = [
+            self._to_columns @ (reach[:, None] * (relief @ (lengths[:, None] * self._to_rows)))
+            for reach, lengths in zip(modes.reach, modes.lengths)
+        ]
+        return self._unit * np.array(parts)
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:

@@ -190,13 +190,6 @@ class _Line(NamedTuple):
         places = np.append(every, every), np.append(self.low, self.high)
         return csr_matrix((np.append(1.0 - share, share), places), shape=(every.size, rows))
 
-    def spread(self, weights: Array, rows: int) -> Array:
-        """What `of` does, transposed: `weights` (places, m) given back to the rows (rows, m)."""
-        out = np.zeros((rows, weights.shape[1]))
-        np.add.at(out, self.low, (1.0 - self.share) * weights)
-        np.add.at(out, self.high, self.share * weights)
-        return out
-
 
 class Between(NamedTuple):
     """Places between the cells, at which what the cells (nx, nz) have runs straight."""
@@ -216,12 +209,6 @@ class Between(NamedTuple):
         nx, nz = shape
         across = self.across.matrix(nz + 1)[:, :nz]  # the last row stays
         return kron(self.around.matrix(nx), across, format="csr")
-
-    def back(self, weights: Array, shape: tuple[int, int]) -> Array:
-        """Sum of `weights` (n, l) over the places, to the cells (nx, nz) that they depend on."""
-        nx, nz = shape
-        rows = self.around.spread(weights, nx)
-        return self.across.spread(rows.T, nz + 1).T[:, :nz]
 
 
 def _around(angle: Array, mesh: ShapedMesh) -> _Line:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.feed import Feed
+from loadflow.journal.film.linearised import SingularFilm
 
 Array = NDArray[np.float64]
 
@@ -120,6 +122,11 @@ class Pockets:
         -------
         array (a, n)
             The first columns with pressure and flow of the grooves in step.
+
+        Raises
+        ------
+        SingularFilm
+            What flows is not finite.
         """
         held, answer = columns[: -self.free.size], columns[-self.free.size :]
         flow = direct - through[: held.shape[0]]
@@ -128,6 +135,8 @@ class Pockets:
         mismatch, by_pressure, by_flow = self.feed.mismatch(pressure, flow[0], scale)
         matrix = np.diag(by_pressure * slope) + by_flow @ through[held.shape[0] :].T
         change = np.concatenate([[mismatch], flow[1:] @ by_flow.T])
+        if not math.isfinite(float(matrix.sum() + change.sum())):
+            raise SingularFilm("flow of the grooves is not finite: the iteration diverges")
         # least squares: an empty groove of a shaft that does not turn has no slope
         pressures = np.linalg.lstsq(matrix, change.T)[0]
         return held + pressures.T @ answer

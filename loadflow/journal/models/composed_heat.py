@@ -27,6 +27,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.line import Line
+from loadflow.journal.models import grid
 from loadflow.journal.models._composed_gap_kernels import (
     CUBE,
     DRAG,
@@ -46,8 +47,8 @@ from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
 from loadflow.journal.models.width_modes import Nodes
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import WarmFilm, coupled, heat_columns, no_warmth
-from loadflow.journal.solvers.warm_mean import MeanHeat, in_balance, series_loads
+from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
+from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -250,7 +251,7 @@ def equilibrium(
         if not found.converged and last is not None:
             films, found = _at_rest(around, n, None)
         if not found.converged and limits.strict:
-            why = no_warmth(found) or 'no film on rung = "reduced"; "grid" may have one'
+            why = no_warmth(found) or _why_by_grid(bearing, options, force, speed, line, limits, n)
             raise SolverError(f"load {n}: {why}")
         rows.append(_row(around, n, films, found))
         if found.converged and found.warmth is not None:
@@ -269,6 +270,24 @@ def equilibrium(
         )
     converged = np.array([row["converged"] for row in rows])
     return answered_rows(converged, columns_of(rows))
+
+
+def _why_by_grid(
+    bearing: JournalGeometry,
+    options: Film,
+    force: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    n: int,
+) -> str:
+    """Why the grid has no film for load `n` either, or that it has one."""
+    one = np.array([n])
+    try:
+        grid.equilibrium(bearing, options, force[one], speed[one], line.at(one), limits)
+    except SolverError as error:
+        return str(error).removeprefix("load 0: ")
+    return 'no film on rung = "reduced"; "grid" has one'
 
 
 def _at_rest(
@@ -326,24 +345,28 @@ def mean_around(
         Many of the loads have no film at rest.
     """
     around = _Around(bearing, options, force, speed, line, limits)
-    level, equation, some = around.levels[0], around.equation, series_loads(speed.size)
+    level, equation, some = around.levels[0], around.equation, SeriesLoads.of(speed.size)
     made: list[Made] = []
 
     def film_of(before: Solution | None) -> Solution:
         made.clear()
         spent, shown = 0, None
-        for index in some:
+        lost = []
+        for index in some.asked:
             films, own = around.film(index, level)
             solution = around.solution(films)
             spent += solution.iterations
             if shown is None or own is not None:
                 shown = solution
-            if own is not None:
+            if own is None:
+                lost.append(index)
+            else:
                 made.append(own)
+        some.leave(lost)
         assert shown is not None  # a series has loads
         return replace(shown, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:
         return equation.of(made, cells)
 
-    return in_balance(equation, film_of, heat_of, made, len(some)), equation.viscosity
+    return in_balance(equation, film_of, heat_of, made, some), equation.viscosity

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,6 +46,22 @@ def narrowest_place(bearing: JournalGeometry, gap: BoreGap, position: Array) -> 
     return (
         f"narrowest gap {least * bearing.clearance:.6g} m at {math.degrees(angle):.4g}°, "
         f"z = {z * bearing.radius:.6g} m (radial clearance {bearing.clearance:.6g} m)"
+    )
+
+
+def touches(film: DiscreteFilm, solution: Solution) -> str:
+    """That the shaft has met a rigid bore where it lies aslant in it or has lobes; else nothing.
+
+    Of an aligned cylinder the cells alone say so: its film carries whatever comes.
+    """
+    gap = cast("BoreGap", film.gap)
+    if gap.axisymmetric or not has_touched(film, solution):
+        return ""
+    least, angle, _ = gap.closest(solution.position)
+    size = film.relative_clearance * film.radius
+    return (
+        f"; the shaft touches the bore, narrowest gap {least * size:.6g} m at "
+        f"{math.degrees(angle):.4g}° (radial clearance {size:.6g} m)"
     )
 
 

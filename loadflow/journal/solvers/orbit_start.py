@@ -5,10 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import is_cylindrical
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.load_stepping import APART
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped
@@ -38,6 +40,8 @@ def orbit_start(
         A start outside the bore.
     OrbitStopped
         No film to start from.
+    loadflow.errors.SolverError
+        None, as the shaft meets the elastic shell.
     """
     if start is None:
         first = statics.solve(0, load, omega, None, control)
@@ -46,5 +50,8 @@ def orbit_start(
     else:
         first = statics.hold(0, start, np.zeros(2), omega, control, name="start")
     if not first.converged:
-        raise OrbitStopped(f"orbit cannot start: {statics.message(first, load)}")
+        why = f"orbit cannot start: {statics.message(first, load)}"
+        if statics.film.elastic and statics.film.clearance_left(first.position) <= APART:
+            raise SolverError(why)  # which more cells do not change
+        raise OrbitStopped(why)
     return first

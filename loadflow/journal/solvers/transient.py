@@ -16,6 +16,7 @@ from loadflow.journal.film.integrals import summary
 from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers import step_size
 from loadflow.journal.solvers.history import Past, backward_difference
+from loadflow.journal.solvers.messages import touches
 from loadflow.journal.solvers.moving_pads import other_pads, with_pads
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.journal.solvers.orbit_error import Extremes
@@ -45,7 +46,12 @@ class OrbitStopped(SolverError):
 
 
 def stopped(
-    time: float, force: Array, speed: float, ratio: float, found: tuple[float, float, float]
+    time: float,
+    force: Array,
+    speed: float,
+    ratio: float,
+    found: tuple[float, float, float],
+    why: str = "",
 ) -> OrbitStopped:
     """Say at which load an orbit stops.
 
@@ -56,10 +62,12 @@ def stopped(
         ended.
     found : tuple of float
         Residual, its rounding level, and Newton steps.
+    why : str
+        What else is known.
     """
     return OrbitStopped(
         f"orbit stops at t = {time:.6g} s: F = ({force[0]:.6g}, {force[1]:.6g}) N, "
-        f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}",
+        f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}{why}",
         float(time),
     )
 
@@ -248,7 +256,8 @@ def march(
         solution, past, steps = marcher.step(past, now, force[i], float(speed[i]), before, both)
         if not solution.converged:
             found = solution.residual, solution.rounding, solution.iterations
-            raise stopped(now, force[i], speed[i], math.hypot(*solution.position[:2]), found)
+            ratio, why = math.hypot(*solution.position[:2]), touches(marcher.film, solution)
+            raise stopped(now, force[i], speed[i], ratio, found, why)
         rows.append(orbit_row(marcher.film, solution, steps))
         extremes.see(rows[-1], solution)
     return rows, past, extremes

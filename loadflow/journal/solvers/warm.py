@@ -45,7 +45,7 @@ _CUT, _GROWN, _SHORTEST = 0.5, 1.1, 0.01  # of that share: less after a turn, mo
 _REGAINED = 1.3  # growth of the share of every change where all are small
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
-_TOO_HOT = 10  # fields in a row above the largest temperature, after which none is tried
+_TOO_HOT = 5  # fields in a row that warm beyond the largest temperature: one that settles has one
 _STEP = 2e-3  # of the narrowest gap, by which the shaft moves for a settled stiffness
 _HALVINGS = 4  # steps of the temperature that are halved before the film is given up
 _WARMS = 10.0  # K, that a film must still warm by where it is lost, to have no temperature at all
@@ -288,8 +288,8 @@ def coupled(
         found = equation.state(warmth)
         before, good = solution, now
         residual = float(np.abs(found - now).max())
-        too_hot = too_hot + 1 if float(min(now.max(), found.max())) > HOTTEST else 0
-        if too_hot > _TOO_HOT:
+        too_hot = too_hot + 1 if float(found.max()) > HOTTEST else 0
+        if too_hot >= _TOO_HOT:
             break
         if residual < best:
             best, nearest, share = residual, (now, found), min(1.0, 2.0 * share)
@@ -320,7 +320,7 @@ def coupled(
     if warmth is not None and not seized:
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
     if too_hot:
-        why = f"the film gets hotter than {HOTTEST} K"
+        why = f"the film gets hotter than {HOTTEST} K: it warms to {found.max():.4g} K"
     return WarmFilm(solution, warmth, residual, iteration, False, why, bool(seized))
 
 

@@ -8,8 +8,8 @@ make on average is the heat that they carry off on average.
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sized
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Sized
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -17,9 +17,10 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.temperatures import Temperatures, Warmth
+from loadflow.journal.heat import HOTTEST
 from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.warm import FilmOf, HeatOf, coupled, energy_of
+from loadflow.journal.solvers.warm import FilmOf, HeatOf, WarmFilm, coupled, energy_of, no_warmth
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
 
@@ -60,13 +61,38 @@ class MeanHeat:
         return numbers
 
 
-def series_loads(count: int) -> list[int]:
-    """Numbers of the loads of a series, of `count`, whose mean heat is taken."""
-    return np.unique(np.linspace(0, count - 1, SAMPLES).round().astype(int)).tolist()
+@dataclass
+class SeriesLoads:
+    """Numbers of the loads of a series whose mean heat is taken, and which of them have no film.
+
+    A load that none carries at rest, as the squeeze of the motion may, takes many times as long as
+    one with a film. So it is `left` out as the temperatures go on, and asked again where they end.
+    """
+
+    every: list[int]
+    left: set[int] = field(default_factory=set)
+    why: str = ""
+    """Why the last one has no film, where none has."""
+
+    @classmethod
+    def of(cls, count: int) -> SeriesLoads:
+        """Those of a series of `count` loads."""
+        return cls(np.unique(np.linspace(0, count - 1, SAMPLES).round().astype(int)).tolist())
+
+    @property
+    def asked(self) -> list[int]:
+        """Those that are asked for a film."""
+        return [number for number in self.every if number not in self.left]
+
+    def leave(self, lost: Iterable[int]) -> None:
+        """Leave out those that have no film where others have; without any they are asked again."""
+        lost = set(lost)
+        if len(lost) < len(self.asked):
+            self.left |= lost
 
 
 def in_balance(
-    equation: Temperatures, film_of: FilmOf, heat_of: HeatOf, found: Sized, asked: int
+    equation: Temperatures, film_of: FilmOf, heat_of: HeatOf, found: Sized, loads: SeriesLoads
 ) -> MeanHeat:
     """Bring a film to the temperatures of its mean heat.
 
@@ -78,8 +104,8 @@ def in_balance(
         As of `coupled`, over the whole series.
     found : sized
         Films at rest that `film_of` found last.
-    asked : int
-        Loads of the series that it asks for.
+    loads : SeriesLoads
+        Those that it asks for.
 
     Raises
     ------
@@ -92,9 +118,15 @@ def in_balance(
         More than `LEFT_OUT` of the loads have no film at rest.
     """
     warm = coupled(equation, film_of, None, heat_of)
+    fields, before = warm.iterations, 0
+    while warm.converged and warm.warmth is not None and loads.left and len(found) > before:
+        before = len(found)
+        loads.left.clear()
+        warm = coupled(equation, film_of, (warm.solution, warm.warmth), heat_of)
+        fields += warm.iterations
     if not warm.converged or warm.warmth is None:
-        why = warm.why or "no load of the series has a film at rest"
-        raise SolverError(f"orbit cannot start: {why}")
+        raise SolverError(f"orbit cannot start: {_no_mean(warm, len(found), loads)}")
+    asked = len(loads.every)
     if len(found) < (1.0 - LEFT_OUT) * asked:
         warnings.warn(
             f"temperatures of the film: at rest {asked - len(found)} of {asked} loads of "
@@ -103,7 +135,23 @@ def in_balance(
             stacklevel=6,
         )
     equation.thicken(equation.state(warm.warmth))
-    return MeanHeat(equation, warm.warmth, warm.residual, warm.iterations)
+    return MeanHeat(equation, warm.warmth, warm.residual, fields)
+
+
+def _no_mean(warm: WarmFilm, found: int, loads: SeriesLoads) -> str:
+    """Why a series has no temperatures, how warm it gets, and what would help."""
+    if warm.warmth is None and not warm.why:
+        return f"no load of the series has a film at rest{loads.why}"
+    why = no_warmth(warm) or "at the next temperatures no load of the series has a film at rest"
+    reached, hot = "", True
+    if warm.warmth is not None:
+        hottest = max(warm.warmth.hottest, float(warm.warmth.cells.max()))
+        reached, hot = f", {hottest:.4g} K at the last", hottest > HOTTEST or warm.lost
+    helps = "heat.shell_transfer, more clearance, more fresh oil" if hot else "other cells (grid)"
+    return (
+        f"{why}; mean heat of {found} of {len(loads.every)} loads of the series, "
+        f"{warm.iterations} fields of temperature{reached}: {helps} may help"
+    )
 
 
 def with_temperatures(path: xr.Dataset, heat: MeanHeat, clearance: float) -> xr.Dataset:
@@ -140,23 +188,27 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         More than `LEFT_OUT` of the loads have no film at rest.
     """
     equation = energy_of(statics)
-    some = series_loads(len(loads))
+    some = SeriesLoads.of(len(loads))
     each = replace(control, strict=False)
     found: dict[int, Solution] = {}
 
     def film_of(before: Solution | None) -> Solution:
         spent, worst = 0, no_film(statics.film)
-        for index in some:
+        asked = some.asked
+        for index in asked:
             last = None if before is None else found.get(index)
             solution = statics.solve(index, loads[index], float(speeds[index]), last, each)
             spent += solution.iterations
             found.pop(index, None)
             if solution.converged:
                 found[index] = worst = solution
+        some.leave(set(asked) - set(found))
+        if not found:
+            some.why = f"; {statics.message(solution, loads[index])}"
         return replace(worst, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:
         films = [(one.u, one.position, float(speeds[index])) for index, one in found.items()]
         return equation.solve_mean(films, cells)
 
-    return in_balance(equation, film_of, heat_of, found, len(some))
+    return in_balance(equation, film_of, heat_of, found, some)
