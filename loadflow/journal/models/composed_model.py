@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
-from loadflow.journal.cavitation import LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.contact import Contact
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
@@ -109,13 +109,14 @@ class ComposedFilm:
         """Of a row of results: those of every film, then the flow of each groove."""
         return at.RESULTS + self.work.fed.size
 
-    def judge(self, judged: Judged, n: int) -> None:
-        """Have the film that the work arrays hold judged, as number `n`."""
+    def judge(self, judged: Judged, n: int, speed: float) -> None:
+        """Have the film that the work arrays hold at a `speed`, rad/s, judged, as number `n`."""
         inner, points = self.film.nodes.slopes.shape[1], self.film.nodes.z.size
         opens, gap = 1.0, self.work.gap[MEAN, :, :points]
         if self.film.rough.size > 0.0:
             opens = float(self.work.gap[OPEN, :, :points].min())
-        judged.add(n, self.work.state[LOAD, :, :inner], gap, opens)
+        fill = self.work.state[FILL, :, :inner] if self.options.law.smooth else None
+        judged.add(n, self.work.state[LOAD, :, :inner], gap, opens, fill, speed)
 
     def loads(self, force: Array) -> Array:
         """Forces, N, and moments over the shaft radius, (n, 4)."""

@@ -165,7 +165,7 @@ class Positions:
         force = work.load[:2] + work.touch[0, :2]
         film = work.u.copy(), work.state[P].copy()
         judged = Judged(ring, model.film.nodes, model.film.held.on, 1)
-        model.judge(judged, 0)
+        model.judge(judged, 0, float(self.speed[n]))
         errors = held_errors(judged.left(), force[None])[0]
         return Held(model, *film, place, row, force, slopes, errors, found, found and left)
 
