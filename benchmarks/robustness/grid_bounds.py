@@ -48,7 +48,7 @@ def many_points() -> Iterator[None]:
         patch.object(reduced, "POINTS", 7),
         patch.object(composed_model, "HALF_POINTS", (12, 16, 20, 24, 28)),
         patch.object(composed_model, "POINTS", (24, 28, 32, 36, 40)),
-        patch.object(composed_supply, "_POINTS", 9),
+        patch.object(composed_supply, "_POINTS", (9, 12, 16, 20)),
     ):
         yield
 

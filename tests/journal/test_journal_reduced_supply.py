@@ -23,7 +23,12 @@ from loadflow.journal import (
     Supply,
     Turbulence,
 )
-from loadflow.journal.models.width_modes import half_width_nodes, stretched_width, whole_width
+from loadflow.journal.models.width_modes import (
+    between_stretches,
+    half_width_nodes,
+    stretched_width,
+    whole_width,
+)
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING, SPEED, LOAD = JournalBearing(**SIZE), 100.0, np.array([6e3, 1e3])
@@ -170,6 +175,18 @@ def test_without_marks_stretches_are_the_points_of_the_whole_width(whole):
     other = whole_width(0.5, 6) if whole else half_width_nodes(0.5, 3)
     for name in ("z", "weights", "slopes", "fine", "below"):
         np.testing.assert_allclose(getattr(one, name), getattr(other, name), atol=1e-12)
+
+
+@pytest.mark.parametrize("whole", [False, True])
+def test_values_at_the_points_of_other_stretches_are_those_of_the_polynomials(whole):
+    few, many = (stretched_width(0.5, (0.4,), points, whole) for points in ((2, 3), (3, 6)))
+    inner, others = few.slopes.shape[1], many.slopes.shape[1]
+
+    def film(z):  # a groove, and a land at its end
+        return np.minimum(1.0, (1.0 - np.abs(z) / 0.5) / 0.6)
+
+    values = between_stretches((0.4,), few, many, whole) @ film(few.z[:inner])
+    np.testing.assert_allclose(values, film(many.z[:others]), atol=1e-12)
 
 
 REFUSED = {

@@ -15,7 +15,8 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.cavitation import LOAD
+from loadflow.journal.cavitation import FILL, LOAD
+from loadflow.journal.film._kernels import E, G
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
 from loadflow.journal.film.surface_film import SurfaceFilm
@@ -34,6 +35,7 @@ _NODES, _CLOSES = 1.25, 1.5
 _LITTLE = 1e-6  # of the load, the least that a film beside asperities is taken to carry
 _REGULAR = 1e-12  # determinant of a stiffness, over its largest entry squared, that is not 0
 _FLOW, _OPEN = 1.0 / 3.0, 2.0  # of the side flow, of all of them and of what moves and opens
+_DRAWN = 1.25  # differences that count as many as slopes of oil from upstream sum up to
 
 
 @np.errstate(over="ignore")  # of a film that its cells do not resolve at all
@@ -64,7 +66,7 @@ def relative_errors(
         Share of asperities in the friction.
     """
     width = np.hypot(gap.around[0], gap.around[1])
-    left = Left(*pressure_error(film, width, film.mesh.dz, 1.0)[:3])
+    left = Left(*pressure_error(film, width, film.mesh.dz, 1.0, _drawn(film))[:3])
     if stiffness is None:
         return held_errors(left, load)
     moves = np.arange(gap.size)[free]
@@ -189,16 +191,21 @@ def resting_errors(left: Left, balance: Balance) -> Array:
 
 
 def pressure_error(
-    film: DiscreteFilm, width: Array, across: Array, on_edges: float
+    film: DiscreteFilm,
+    width: Array,
+    across: Array,
+    on_edges: float,
+    drawn: Array | float = 0.0,
 ) -> tuple[float, float, float, Array]:
     """Second differences over the pressure, what they leave of the load, N, and of the peak.
 
     `width` (nx,) and `across` (nz,) are those of the cells. `on_edges` is how far beyond the
-    outermost values the ends lie: 1 half a cell, 0 a whole one. The differences of the cells
-    (nx, nz) come last, times the share that counts, Pa.
+    outermost values the ends lie: 1 half a cell, 0 a whole one; `drawn` is what counts beside the
+    differences around (nx, nz), Pa. All of the cells come last, times the share that counts, Pa.
     """
     pressure = film.state[LOAD]
     around, beside = _differences(film, on_edges)
+    around = around + drawn
     bends, area = around + beside, np.outer(width, across)
     bent = float(np.vdot(bends, area))
     whole = float(np.vdot(np.abs(pressure - film.p_edge), area))
@@ -211,6 +218,32 @@ def pressure_error(
         beside_it = float(around[near].max() + beside[near].max()) / highest
     peak = peak_share(share, beside_it, bool(film.pockets.count))
     return share, LOAD_SHARE * film.mirrors * film.radius**2 * bent, peak, LOAD_SHARE * bends
+
+
+def _drawn(film: DiscreteFilm) -> Array | float:
+    """What cells (nx, nz) leave out of the pressure as their oil is taken from upstream, Pa.
+
+    0 but of a law whose fill changes all over: others are in order where the film carries.
+    """
+    if not film.law.smooth:
+        return 0.0
+    mesh, fill, coef = film.mesh, film.state[FILL], film.gap.coef
+    ends = (fill[-1:], fill[:1]) if mesh.closed else (fill[:1], fill[-1:])
+    steps = np.abs(np.diff(np.concatenate([ends[0], fill, ends[1]]), axis=0))
+    faces = steps * coef[E, :, : fill.shape[1]] / coef[G, :, : fill.shape[1]]
+    over = min(float(mesh.z_edges[-1]), 1.0) / mesh.dx[:, None]
+    each = 0.25 * abs(film.wedge) * (faces[:-1] + faces[1:]) * over
+    return drawn_share(each, film.state[LOAD] - film.p_edge)
+
+
+def drawn_share(each: Array, above: Array) -> Array:
+    """What counts beside differences around of slopes that sum up to `each`, Pa.
+
+    Where oil is taken from upstream, half of its change from cell to cell flows too much or too
+    little: the pressure has to make up for that by its slope, until it has leaked out at the ends.
+    It is off by no more than what it is `above` that of the ends.
+    """
+    return np.asarray(_DRAWN * np.minimum(each, np.abs(above)))
 
 
 def peak_share(share: Numbers, beside: Numbers, fed: bool) -> Numbers:

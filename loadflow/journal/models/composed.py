@@ -16,8 +16,8 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.composed_model import (
+    LEVELS,
     levels_at_rest,
-    levels_of,
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
@@ -70,8 +70,10 @@ def finer_around(options: Film, control: Limits) -> int | None:
     """Cells around on which a film is tried that those asked for do not resolve; None: no others.
 
     Only a shell that gives way, or asperities, leave a film on them that a finer grid need not
-    find.
+    find. Beside grooves that costs more than the grid does.
     """
+    if options.supply is not None:
+        return None
     if not (control.refine and options.may_grade):
         return None
     if options.shell is None and options.contact is None:
@@ -92,7 +94,7 @@ def _on_cells(
     """Films on the cells around that are asked for, on as many points across as each asks for."""
     films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
     known = Known(films.films, films.model)
-    levels = levels_at_rest(options) if control.refine else levels_of(options)
+    levels = levels_at_rest(options) if control.refine else LEVELS
     for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
-from loadflow.journal.cavitation import LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.contact import Contact
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
@@ -39,11 +39,18 @@ from loadflow.journal.models.composed_film import (
 from loadflow.journal.models.composed_supply import (
     held_points,
     nodes_beside,
+    parted_at,
     put_in_grooves,
     supplied,
 )
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
-from loadflow.journal.models.width_modes import between_points, half_width_nodes, whole_width
+from loadflow.journal.models.width_modes import (
+    Nodes,
+    between_points,
+    between_stretches,
+    half_width_nodes,
+    whole_width,
+)
 from loadflow.journal.rows import without_supply
 from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import SHARES
@@ -103,13 +110,14 @@ class ComposedFilm:
         """Of a row of results: those of every film, then the flow of each groove."""
         return at.RESULTS + self.work.fed.size
 
-    def judge(self, judged: Judged, n: int) -> None:
-        """Have the film that the work arrays hold judged, as number `n`."""
+    def judge(self, judged: Judged, n: int, speed: float) -> None:
+        """Have the film that the work arrays hold at a `speed`, rad/s, judged, as number `n`."""
         inner, points = self.film.nodes.slopes.shape[1], self.film.nodes.z.size
         opens, gap = 1.0, self.work.gap[MEAN, :, :points]
         if self.film.rough.size > 0.0:
             opens = float(self.work.gap[OPEN, :, :points].min())
-        judged.add(n, self.work.state[LOAD, :, :inner], gap, opens)
+        fill = self.work.state[FILL, :, :inner] if self.options.law.smooth else None
+        judged.add(n, self.work.state[LOAD, :, :inner], gap, opens, fill, speed)
 
     def loads(self, force: Array) -> Array:
         """Forces, N, and moments over the shaft radius, (n, 4)."""
@@ -312,11 +320,16 @@ def build(
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
     whole = not line.straight
-    layout, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
-    more = 0 if _resolves_relief(bearing, layout(half, points[0]).z) else 1
-    nodes = nodes_beside(options.supply, bearing, whole)
-    few = None if at_rest else points[more]
-    nodes = nodes or layout(half, across or points[level + more], few)
+
+    def layout(number: int, few: int | None) -> Nodes:
+        beside = nodes_beside(options.supply, bearing, whole, number, few)
+        if beside is not None:
+            return beside
+        plain, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
+        return plain(half, across or points[number], None if few is None else points[few])
+
+    more = 0 if _resolves_relief(bearing, layout(0, None).z) else 1
+    nodes = layout(level + more, None if at_rest else more)
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options)
@@ -350,14 +363,9 @@ def _resolves_relief(bearing: JournalGeometry, points: Array) -> bool:
     return not depth.any() or int(widened.sum()) > _ON_A_CROWN
 
 
-def levels_of(options: Film) -> range:
-    """Levels of points across that a film may ask for; beside grooves there is one."""
-    return LEVELS if options.supply is None else LEVELS[:1]
-
-
 def levels_at_rest(options: Film) -> range:
-    """The same of a film at rest, of which two more cost little."""
-    return range(len(POINTS) - 1) if options.supply is None else levels_of(options)
+    """Levels of points across that a film at rest may ask for: more than `LEVELS` cost little."""
+    return range(len(POINTS) - 1 if options.supply is None else len(LEVELS) + 1)
 
 
 def unknowns_on(
@@ -368,9 +376,15 @@ def unknowns_on(
     So are other values, that are `edge` at the bearing ends.
     """
     few, many = (model.film.nodes.slopes.shape[1] for model in (here, there))
-    moved = there.cold() if edge is None else np.full(there.work.u.shape, edge)
-    across = between_points(few, many, there.whole)
-    moved[:, :many] += (unknowns[:, :few] - moved[0, 0]) @ across.T
+    supply, whole = here.options.supply, there.whole
+    marks = () if supply is None else parted_at(supply, here.bearing)
+    if marks:
+        across = between_stretches(marks, here.film.nodes, there.film.nodes, whole)
+    else:
+        across = between_points(few, many, whole)
+    end = float(here.units.unknown_of(np.array([here.units.p_edge]))[0]) if edge is None else edge
+    moved = np.full(there.work.u.shape, end)
+    moved[:, :many] += (unknowns[:, :few] - end) @ across.T
     return moved
 
 

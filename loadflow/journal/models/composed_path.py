@@ -26,10 +26,10 @@ from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import (
+    LEVELS,
     ComposedFilm,
     build,
     contact_share,
-    levels_of,
     rubs,
     unknowns_on,
     warn_unresolved,
@@ -113,7 +113,7 @@ class March:
 
     def __init__(self, drive: Drive, steps: Steps) -> None:
         self.drive, self.start, self.accuracy = drive, steps.start, steps.accuracy
-        self.levels = levels_of(drive.options)
+        self.levels = LEVELS
         if drive.viscosity is not None:  # as fine as the temperatures are
             self.levels = self.levels[-1:]
         self.model = model = drive.film(self.levels[0])

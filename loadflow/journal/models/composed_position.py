@@ -114,11 +114,12 @@ class Positions:
         """The film of which the cells around and points across are shown: no fewer than of any."""
         around = max(film.model.options.cells[0] for film in held)
         points = max(film.model.film.nodes.slopes.shape[1] for film in held)
-        for level in levels_at_rest(self.options)[_SHOWN:]:
+        levels = levels_at_rest(self.options)[_SHOWN if self.options.supply is None else 0 :]
+        for level in levels[:-1]:
             model = self.model(around, level, None)
             if model.film.nodes.slopes.shape[1] >= points:
                 return model
-        return self.model(around, 0, self.across)  # beside grooves there is one level
+        return self.model(around, levels[-1], None)
 
     def held(self, n: int) -> Held:
         """Film at position `n`, on as many points and cells as it asks for."""
@@ -164,7 +165,7 @@ class Positions:
         force = work.load[:2] + work.touch[0, :2]
         film = work.u.copy(), work.state[P].copy()
         judged = Judged(ring, model.film.nodes, model.film.held.on, 1)
-        model.judge(judged, 0)
+        model.judge(judged, 0, float(self.speed[n]))
         errors = held_errors(judged.left(), force[None])[0]
         return Held(model, *film, place, row, force, slopes, errors, found, found and left)
 

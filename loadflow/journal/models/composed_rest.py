@@ -130,7 +130,7 @@ def films_at_rest(
                 rows[n], stiffness[n], damping[n] = row, *slopes
                 work.last[:] = work.u
                 last = n
-                model.judge(judged, n)
+                model.judge(judged, n, speed[n])
                 thin[n] = model.film.give > 0.0 and not model.resolves_gap(row[at.LEAST])
                 if model.unresolved_across(row[None])[0]:
                     films[n] = work.u.copy(), start.place.copy()

@@ -21,20 +21,30 @@ from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
 
-_POINTS = 5  # inside the stretches of half of the width that are parted once
+_POINTS = (5, 8, 12, 16)  # inside the stretches of half of the width that are parted once
 _CLOSE = 1e-7  # to a groove, in shaft radii, at which a point is in it
 _ENDS = 1e-9  # share of the half width by which a groove may miss the bearing end
 
 
-def nodes_beside(supply: Supply | None, bearing: JournalGeometry, whole: bool) -> Nodes | None:
-    """Points across a width that grooves part; None where none does."""
+def nodes_beside(
+    supply: Supply | None, bearing: JournalGeometry, whole: bool, number: int, few: int | None
+) -> Nodes | None:
+    """Points across a width that grooves part; None where none does.
+
+    They are the `number` of `_POINTS`; what they tell is whether the `few` of these would do.
+    """
     if supply is None:
         return None
     half, marks = bearing.width / bearing.diameter, parted_at(supply, bearing)
     if not marks:
         return None
-    middle = min(max(round(4.0 * marks[0]), 1), _POINTS - 2)
-    return stretched_width(half, marks, (middle, _POINTS - middle), whole)
+
+    def shared(points: int) -> tuple[int, int]:
+        middle = min(max(round(0.8 * points * marks[0]), 1), points - 2)
+        return middle, points - middle
+
+    fewer = None if few is None else shared(_POINTS[few])
+    return stretched_width(half, marks, shared(_POINTS[number]), whole, fewer)
 
 
 def parted_at(supply: Supply, bearing: JournalGeometry) -> tuple[float, ...]:

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.cavitation import LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.film.cell_error import Balance, resting_errors
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
@@ -89,7 +89,7 @@ def equilibrium(
     film = units_of(bearing, options, speed)
     reduced, work = _discrete(bearing, options, film)
     half = float(film.mesh.z_edges[-1])
-    count, bore = speed.size, Bore.of(bearing)
+    count, bore, smooth = speed.size, Bore.of(bearing), options.law.smooth
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
     judged = Judged(reduced.ring, half_width_nodes(half, POINTS), False, count)
@@ -108,7 +108,8 @@ def equilibrium(
                 converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
                 finish(reduced, work, x, y, speed[n], rows[n], stiffness[n], damping[n])
-                judged.add(n, work.state[LOAD], work.gap[:, None])
+                fill = work.state[FILL] if smooth else None
+                judged.add(n, work.state[LOAD], work.gap[:, None], 1.0, fill, speed[n])
                 starts.keep(n, (x, y))
             if answered:
                 break

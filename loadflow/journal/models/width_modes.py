@@ -176,11 +176,16 @@ def half_width_nodes(half_width: float, points: int, few: int | None = None) -> 
 
 
 _NO_WIDTH = 1e-6  # root of the width of a point that stands for the bend between two stretches
+_ON = 1e-9  # distance, over the half width, at which a point is on the end of a stretch
 
 
 @lru_cache(maxsize=8)
 def stretched_width(
-    half_width: float, marks: tuple[float, ...], points: tuple[int, int], whole: bool
+    half_width: float,
+    marks: tuple[float, ...],
+    points: tuple[int, int],
+    whole: bool,
+    few: tuple[int, int] | None = None,
 ) -> Nodes:
     """Polynomials over stretches of the width, between which the slope may bend.
 
@@ -197,15 +202,23 @@ def stretched_width(
         Inside half of the stretch about mid-plane, and inside each of the others.
     whole : bool
         The whole width, or even polynomials over the half of it.
+    few : tuple of int, optional
+        As `points`, those in place of which these are the more ones.
     """
     edges = np.array([-1.0, *(-mark for mark in reversed(marks)), *marks, 1.0])
-    degrees = [points[1] + 1] * (edges.size - 1)
-    degrees[len(marks)] = 2 * points[0] + 1
+
+    def degrees_of(points: tuple[int, int]) -> list[int]:
+        inside = [points[1] + 1] * (edges.size - 1)
+        inside[len(marks)] = 2 * points[0] + 1
+        return inside
+
+    degrees, lesser = degrees_of(points), degrees_of(few or points)
     count, places = sum(degrees) + 1, np.linspace(-1.0 if whole else 0.0, 1.0, _FINE)
     z, own, mean = np.zeros(count), np.zeros(count), np.zeros((count, count))
     fine, highest, begins = np.zeros((_FINE, count)), [], [0]
+    beyond: list[Array] = []
     pairs: list[tuple[float, Array]] = []  # weight and slopes on either side of each mark
-    for low, high, degree in zip(edges[:-1], edges[1:], degrees):
+    for low, high, degree, least in zip(edges[:-1], edges[1:], degrees, lesser):
         zeta, weights = _lobatto_rule(degree)
         half, here = 0.5 * (high - low), slice(begins[-1], begins[-1] + degree + 1)
         slopes = np.zeros((degree + 1, count))
@@ -219,8 +232,11 @@ def stretched_width(
         fine[np.ix_(within, np.arange(count)[here])] = _interpolation(
             zeta, (places[within] - low) / half - 1.0
         )
-        highest.append(np.zeros(count))
-        highest[-1][here] = np.linalg.inv(legendre.legvander(zeta, degree))[-1]
+        shares = np.zeros((degree + 1, count))
+        shares[:, here] = np.linalg.inv(legendre.legvander(zeta, degree))
+        # about mid-plane an even polynomial has no share of an odd degree
+        highest.append(shares[-2 if not whole and low == -high else -1])
+        beyond += [*shares[least - 1 if low == -high else least :]]
         begins.append(begins[-1] + degree)
     mean /= own[:, None]
     bends, below = np.array(begins[1:-1], dtype=int), np.full(count, 0.5)
@@ -253,7 +269,7 @@ def stretched_width(
         ends=np.array([-1.0, 1.0] if whole else [1.0]),
         fine=of_unknown(fine),
         highest=of_unknown(np.array(highest if whole else highest[len(marks) :])),
-        beyond=np.zeros((0, unknown.size)),  # these points are never the more ones
+        beyond=of_unknown(np.array(beyond)) if few else np.zeros((0, unknown.size)),
         below=below[unknown],
         width=half_width * float(real.sum()),
         widest=half_width * float(own[unknown].max()),
@@ -272,6 +288,23 @@ def at_places(points: int, whole: bool, places: Array) -> Array:
     inner = np.arange(points + 1, 2 * points + 1)
     values = _interpolation(zeta, places)
     return np.ascontiguousarray(values[:, inner] + values[:, 2 * points + 1 - inner])
+
+
+def between_stretches(marks: tuple[float, ...], here: Nodes, there: Nodes, whole: bool) -> Array:
+    """Values at the inner points `there` from those `here`, both of `stretched_width`."""
+    half, inner, others = here.z[-1], here.slopes.shape[1], there.slopes.shape[1]
+    own, places = here.z[:inner] / half, there.z[:others] / half
+    sides = own if whole else np.append(-own[::-1], own)
+    zeta, values = np.concatenate([[-1.0], sides, [1.0]]), np.zeros((others, sides.size + 2))
+    edges = np.array([-1.0, *(-mark for mark in reversed(marks)), *marks, 1.0])
+    for low, high in zip(edges[:-1] - _ON, edges[1:] + _ON):
+        within = np.flatnonzero((zeta >= low) & (zeta <= high))
+        to = np.flatnonzero((places >= low) & (places <= high))
+        values[np.ix_(to, within)] = _interpolation(zeta[within], places[to])
+    values = values[:, 1:-1]
+    if whole:
+        return np.ascontiguousarray(values)
+    return np.ascontiguousarray(values[:, inner:] + values[:, inner - 1 :: -1])
 
 
 @lru_cache(maxsize=8)
