@@ -79,14 +79,20 @@ def _line_of_contact(
 
 
 def yielding_of(
-    bearing: JournalGeometry, options: Film, give: float, whole: bool, points: int, ring: Ring
+    bearing: JournalGeometry,
+    options: Film,
+    give: float,
+    whole: bool,
+    points: int,
+    ring: Ring,
+    grows: bool = False,
 ) -> Yielding:
     """Asperities on a shell that gives way by `give`, clearances per Pa, or in a shaped bore.
 
-    `points` across carry the pressure.
+    `points` across carry the pressure; a bore that `grows` by heat has a shape, too.
     """
     contact = options.contact
-    if contact is None or not (give or bearing.shape.segments or bearing.relief):
+    if contact is None or not (give or grows or bearing.shape.segments or bearing.relief):
         return RIGID
     half = bearing.width / bearing.diameter
     x, w = np.polynomial.legendre.leggauss(_LINES if whole else _LINES // 2)

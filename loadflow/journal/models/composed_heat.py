@@ -22,6 +22,7 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.energy_balance import FRESH, Flows
 from loadflow.journal.film.linearised import Linear
+from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -35,7 +36,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     PLANES,
 )
-from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     build,
@@ -43,10 +43,17 @@ from loadflow.journal.models.composed_model import (
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.width_modes import Nodes
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import WarmFilm, coupled, heat_columns, no_warmth
+from loadflow.journal.solvers.warm import (
+    WarmFilm,
+    coupled,
+    heat_columns,
+    in_grown_clearances,
+    no_warmth,
+)
 from loadflow.journal.solvers.warm_mean import MeanHeat, in_balance, series_loads
 from loadflow.numerics.convergence import Limits
 
@@ -86,13 +93,32 @@ class StripFilm(Temperatures):
         area = self._share * units.mirrors * units.radius**2
         areas = area * np.outer(model.film.ring.width, np.diff(self._edges))
         super().__init__(units, heat, areas, np.full(areas.shape, -1, dtype=np.int64), 0)
-        self.z = 0.5 * (self._edges[1:] + self._edges[:-1])
+        self.z, self._areas = 0.5 * (self._edges[1:] + self._edges[:-1]), areas
+        if heat.growth is not None:
+            self._expansion = RingExpansion(heat, units.mesh, units.radius)
         self.thicken(self.state(None))
 
     def thicken(self, state: Array) -> None:
-        """Have the viscosity of the temperatures `state`, over that of the film."""
-        viscosity = np.asarray(self.heat.liquid.viscosity(self.cells_of(state)))
-        self.viscosity = Thickness(self.z, viscosity / self.film.viscosity)
+        """Have the viscosity and the growth of the temperatures `state`, in units of the film."""
+        across, growth = self._at_state(state)
+        self._grown = np.zeros(self.shape) if growth is None else growth
+        grown = None if growth is None else growth / self._clearance
+        self.viscosity = Thickness(self.z, across.flow, across.shear, across.drag, grown)
+
+    @property
+    def growth(self) -> Array:
+        """Growth of the gap of the cells by heat, (nx, nz), m."""
+        return self._grown
+
+    @property
+    def mean_growth(self) -> float:
+        """The same on average over the cells, m."""
+        return float(np.average(self._grown, weights=self._areas))
+
+    @property
+    def _clearance(self) -> float:
+        """Of the bearing, m."""
+        return self.film.relative_clearance * self.film.radius
 
     def made(self, model: ComposedFilm, speed: float, rubbed: float) -> Made:
         """What the film last solved carries and makes; its asperities make the heat `rubbed`, W."""
@@ -123,7 +149,7 @@ class StripFilm(Temperatures):
             drags = around[:, inner] - np.roll(around[:, inner], 1)
             first = drags + crossing @ nodes.end_slopes[:, 0]
         unit = self._share * units.pockets.flow_unit
-        clearance = units.relative_clearance * units.radius
+        clearance = self._clearance
         drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
         pumped = unit * (across + 0.5 * (along + np.roll(along, 1, axis=0)))
         pumped += self._rubbed(model, rubbed)
@@ -163,11 +189,7 @@ class StripFilm(Temperatures):
         low = np.append(cells, np.hstack([fresh, cells]))
         high = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
         flow, drag = np.append(around, passed), np.append(dragged, np.zeros(passed.size))
-        some = flow != 0.0
-        low, high, flow, drag = low[some], high[some], flow[some], drag[some]
-        on = flow > 0.0
-        way = np.where(on, 1.0, -1.0)
-        return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
+        return self._flows(low, high, flow, drag)
 
     def _rubbed(self, model: ComposedFilm, rubbed: float) -> Array | float:
         """Heat of the asperities at the points, W, shared out as they are pressed there."""
@@ -208,6 +230,11 @@ class _Around:
     def film(self, n: int, level: int) -> tuple[RestingFilms, Made | None]:
         """Film of load `n` on the points of a level, and what it makes; None: there is none."""
         one, equation = np.array([n]), self.equation
+        closes, clearance = -float(equation.growth.min()), self.bearing.clearance
+        if closes >= clearance:
+            raise SolverError(
+                f"the shaft has grown into its shell: by {closes:.3g} m of {clearance:.3g}"
+            )
         films = films_at_rest(
             self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
             self.limits, level, viscosity=equation.viscosity,
@@ -307,6 +334,8 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     z = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
     where = {"angle": equation.film.mesh.angle, "z": z * bearing.radius}
     row |= warm | heat_columns(equation, found) | where
+    if heat.growth is not None:
+        row |= in_grown_clearances(row, bearing, equation, found)
     return row | {"converged": found.converged, "iterations": found.solution.iterations}
 
 

@@ -225,8 +225,6 @@ def _around_alone(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, A
     heat, here = film.heat, 'with heat over the area on rung = "reduced"'
     yield "shape", bearing.shape, bool(bearing.shape.segments), f"a whole bore {here}"
     yield "supply", film.supply, True, f"None {here}"
-    yield "heat.points", getattr(heat, "points", 1), getattr(heat, "points", 1) != 1, f"1 {here}"
-    yield "heat.growth", getattr(heat, "growth", None), True, f"None {here}"
     settled = getattr(heat, "stiffness", "") == "settled"
     yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
 
