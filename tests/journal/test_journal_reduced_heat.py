@@ -7,6 +7,7 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Arc,
     Contact,
     Film,
     FilmHeat,
@@ -16,6 +17,7 @@ from loadflow.journal import (
     LocalShell,
     Lubricant,
     RingGrowth,
+    TiltingPads,
 )
 from loadflow.journal.line import Line
 from loadflow.journal.models.composed_rest import films_at_rest
@@ -66,10 +68,47 @@ def test_a_film_at_rest_is_that_of_the_grid(more, line):
     if grows:
         assert own.thermal_growth.mean() == pytest.approx(grid.thermal_growth.mean(), rel=5e-3)
         assert own.clearance == pytest.approx(float(grid.clearance), rel=1e-3)
-        assert own.eccentricity_ratio == pytest.approx(float(grid.eccentricity_ratio), rel=3e-3)
+        assert own.eccentricity_ratio == pytest.approx(float(grid.eccentricity_ratio), rel=5e-3)
     assert own.film_temperature.shape == (own.angle.size, own.z.size) == grid.film_temperature.shape
-    off, size = (np.linalg.norm(one) for one in (own.moment - grid.moment, grid.moment))
-    assert off <= 0.01 * size
+    off = np.linalg.norm(own.moment - grid.moment)
+    assert off <= 1e-3 * np.linalg.norm(LOAD) * BEARING.width
+
+
+@pytest.mark.parametrize(
+    ("shape", "more", "line"),
+    [
+        (Lobes(2), {}, {}),
+        (Lobes(3, preload=0.3), {"heat": GROWS, "contact": ROUGH}, {"tilt": (0.0, 5e-5)}),
+        (Arc(0.0, 2.6), {"heat": replace(HEAT, points=4), "shell": LocalShell(1e-12)}, {}),
+    ],
+)
+def test_oil_mixes_between_segments_as_on_the_grid(shape, more, line):
+    bearing = replace(BEARING, shape=shape)
+    own, grid = (
+        bearing.equilibrium(LOAD, SPEED, film(rung, FINE, **more), **line)
+        for rung in ("reduced", "grid")
+    )
+    assert own.heat_imbalance < 1e-8
+    for name, most in zip(TOLD, (0.01 if "heat" in more else 0.003, 0.006, 0.001)):
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
+    assert own.temperature == pytest.approx(float(grid.temperature), abs=0.05)
+    for name in ("trailing_temperature", "leading_temperature"):
+        np.testing.assert_allclose(getattr(own, name), getattr(grid, name), atol=0.2)
+
+
+def test_a_closed_path_between_lobes_is_that_of_the_grid():
+    time = np.linspace(0.0, 0.1, 21)
+    loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
+    loads[-1] = loads[0]
+    bearing = replace(BEARING, shape=Lobes(2))
+    own, grid = (
+        bearing.orbit(time, loads, SPEED, film(rung, FINE), periodic=True)
+        for rung in ("reduced", "grid")
+    )
+    assert own.attrs["closure"] < 1e-6
+    assert own.attrs["heat_imbalance"] < 1e-8
+    for name, most in zip(TOLD, (0.003, 0.006, 0.001)):
+        np.testing.assert_allclose(own[name], grid[name], rtol=most)
 
 
 def test_more_cells_across_are_more_strips_up_to_the_friction_of_the_grid():
@@ -157,6 +196,12 @@ def test_a_closed_path_with_shell_and_asperities_closes(heat):
 def test_what_the_strips_do_not_know_is_refused_by_name(more, words):
     with pytest.raises(InputError, match=words):
         BEARING.equilibrium(LOAD, SPEED, film(**more))
-    lobes = replace(BEARING, shape=Lobes(2))
-    with pytest.raises(InputError, match="a whole bore"):
-        lobes.equilibrium(LOAD, SPEED, film())
+    pads = replace(BEARING, shape=TiltingPads(4, 1.2))
+    with pytest.raises(InputError, match="a bore without tilting pads"):
+        pads.equilibrium(LOAD, SPEED, film())
+
+
+def test_growth_asks_for_a_film_that_runs_round():
+    half = replace(BEARING, shape=Arc(0.0, 2.6))
+    with pytest.raises(InputError, match="a film runs round"):
+        half.equilibrium(LOAD, SPEED, film(heat=GROWS))

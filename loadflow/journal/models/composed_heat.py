@@ -22,7 +22,7 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.energy_balance import FRESH, Flows
 from loadflow.journal.film.linearised import Linear
-from loadflow.journal.film.ring_growth import RingExpansion
+from loadflow.journal.film.ring_growth import RingExpansion, require_round
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -44,6 +44,7 @@ from loadflow.journal.models.composed_model import (
 )
 from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
@@ -72,6 +73,21 @@ class Made(NamedTuple):
     pumped: Array
 
 
+class _Columns(NamedTuple):
+    """Columns of cells around, as `RingExpansion` asks for them."""
+
+    edges: Array
+    angle: Array
+    dx: Array
+
+    @classmethod
+    def of(cls, ring: Ring) -> _Columns:
+        """Those of a film, and the grooves between its segments."""
+        angle = np.unwrap(np.arctan2(ring.sin, ring.cos))
+        edges = np.append(angle - 0.5 * ring.width, angle[-1] + 0.5 * ring.width[-1])
+        return cls(edges, angle, ring.width)
+
+
 class StripFilm(Temperatures):
     """Energy equation of the strips of a reduced film, from lower to higher z.
 
@@ -91,11 +107,17 @@ class StripFilm(Temperatures):
         end = float(units.mesh.z_edges[-1])
         self._edges = np.linspace(-end if model.whole else 0.0, end, count + 1)
         area = self._share * units.mirrors * units.radius**2
-        areas = area * np.outer(model.film.ring.width, np.diff(self._edges))
-        super().__init__(units, heat, areas, np.full(areas.shape, -1, dtype=np.int64), 0)
+        ring = model.film.ring
+        areas = area * np.outer(ring.width, np.diff(self._edges))
+        labels = np.where(ring.groove, np.cumsum(ring.groove) - 1, -1)
+        labels = np.repeat(labels[:, None], count, axis=1)
+        super().__init__(units, heat, areas, labels, int(ring.groove.sum()))
+        self.columns = _Columns.of(ring)
         self.z, self._areas = 0.5 * (self._edges[1:] + self._edges[:-1]), areas
         if heat.growth is not None:
-            self._expansion = RingExpansion(heat, units.mesh, units.radius)
+            if ring.shaped:
+                require_round(heat.growth, float(ring.width[ring.groove].max()))
+            self._expansion = RingExpansion(heat, self.columns, units.radius)
         self.thicken(self.state(None))
 
     def thicken(self, state: Array) -> None:
@@ -144,21 +166,24 @@ class StripFilm(Temperatures):
         carries[:, :inner] = p >= load
         across = crossing * work.slope[:, :points] * carries
         around = dragged - conducts * rise
-        first = np.zeros(self.shape[0])
+        first, closed = np.zeros(self.shape[0]), ring.groove
+        crossing[closed], across[closed] = 0.0, 0.0
         if model.whole:  # over the lower end leaves what reaches its strip, but for what that drags
             drags = around[:, inner] - np.roll(around[:, inner], 1)
-            first = drags + crossing @ nodes.end_slopes[:, 0]
+            first = np.where(closed, 0.0, drags + crossing @ nodes.end_slopes[:, 0])
         unit = self._share * units.pockets.flow_unit
         clearance = self._clearance
         drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
-        pumped = unit * (across + 0.5 * (along + np.roll(along, 1, axis=0)))
+        ahead = np.where(np.roll(closed, -1), 1.0, 0.5)[:, None]  # all of it where the film ends
+        behind = np.where(np.roll(closed, 1), 1.0, 0.5)[:, None]
+        pumped = unit * (across + ahead * along + behind * np.roll(along, 1, axis=0))
         pumped += self._rubbed(model, rubbed)
         gaps = (clearance * work.gap[MEAN, :, :points] * weights) @ shares / np.diff(self._edges)
         return Made(
             self._between(unit * around @ shares, unit * dragged @ shares, unit * first),
-            gaps.ravel(),
-            (drag * speed**2 * work.sheared[:, :points] @ shares).ravel(),
-            (pumped @ shares).ravel(),
+            gaps[self.wet],
+            (drag * speed**2 * work.sheared[:, :points] @ shares)[self.wet],
+            (pumped @ shares)[self.wet],
         )
 
     def of(self, films: Sequence[Made], guess: Array) -> Warmth:
@@ -182,9 +207,10 @@ class StripFilm(Temperatures):
 
     def _between(self, around: Array, dragged: Array, first: Array) -> Flows:
         """Flows along the strips and between them, of which `first` comes over the lower end."""
-        cells = np.arange(self.size).reshape(self.shape)
+        cells = self._cells
         fresh = np.full((self.shape[0], 1), FRESH)
         gained = np.roll(around, 1, axis=0) - around  # what each passes on to the next strip
+        gained[~self.wet] = 0.0
         passed = np.cumsum(np.column_stack([first, gained]), axis=1)
         low = np.append(cells, np.hstack([fresh, cells]))
         high = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
@@ -199,7 +225,7 @@ class StripFilm(Temperatures):
         assert contact is not None
         gaps = model.work.gap[PLANES, :, : nodes.z.size] * model.bearing.clearance
         pressed = np.asarray(contact.asperities.pressure(gaps)) * nodes.weights
-        pressed *= model.film.ring.width[:, None]
+        pressed *= (model.film.ring.width * ~model.film.ring.groove)[:, None]
         if not pressed.any():  # they touch between the cells
             pressed.flat[gaps.argmin()] = 1.0
         return np.asarray(rubbed * pressed / pressed.sum())
@@ -332,7 +358,7 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
     z = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
-    where = {"angle": equation.film.mesh.angle, "z": z * bearing.radius}
+    where = {"angle": equation.columns.angle, "z": z * bearing.radius}
     row |= warm | heat_columns(equation, found) | where
     if heat.growth is not None:
         row |= in_grown_clearances(row, bearing, equation, found)

@@ -325,7 +325,7 @@ def build(
     grows = viscosity is not None and viscosity.growth is not None
     yielding = yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring, grows)
     if viscosity is not None:
-        uneven = viscosity.at(nodes.z, yielding.z)
+        uneven = viscosity.at(nodes.z, yielding.z, ring.back, ring.width)
         places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
         yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
     film = Composed(

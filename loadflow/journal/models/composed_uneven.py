@@ -65,18 +65,21 @@ class Thickness(NamedTuple):
     drag: Array | None = None
     growth: Array | None = None
 
-    def at(self, points: Array, beside: Array) -> Uneven:
-        """The same at `points` across (l,), straight between its own; growth `beside` (g,), too."""
+    def at(self, points: Array, beside: Array, back: Array, width: Array) -> Uneven:
+        """The same at `points` across (l,), straight between its own; growth `beside` (g,), too.
+
+        The ways between cells of a `width` (nx,) reach from the faces `back` (nx,) into both.
+        """
         cells = self._across(self.values, points)
         shear = cells if self.shear is None else self._across(self.shear, points)
         drags = np.ones_like(cells) if self.drag is None else self._across(self.drag, points)
-        told = cells, _on_the_way(cells), shear, _on_the_way(drags)
+        told = cells, _on_the_way(cells, back), shear, _on_the_way(drags, back)
         if self.growth is None:
             return Uneven(True, *told, False, _NONE_LANES, _NONE_LANES, _NONE_AROUND)
         apart = self.growth - self.growth.mean(axis=0)
         own = self._grown(apart, points)
         wider = aligned(np.zeros((2, len(own), lanes_for(points.size))))
-        wider[0, :, : points.size], wider[1, :, : points.size] = own, _on_the_way(own)
+        wider[0, :, : points.size], wider[1, :, : points.size] = own, _at_faces(own, width)
         return Uneven(True, *told, True, wider[0], wider[1], self._grown(apart, beside))
 
     def mean_growth(self, points: Array) -> Array:
@@ -98,9 +101,18 @@ class Thickness(NamedTuple):
         return np.asarray((1.0 - way) * values[:, before] + way * values[:, before + 1])
 
 
-def _on_the_way(cells: Array) -> Array:
-    """Values between each column of cells and the next one."""
-    return np.asarray(0.5 * (cells + np.roll(cells, -1, axis=0)))
+def _at_faces(cells: Array, width: Array) -> Array:
+    """Values where each column of cells ends, straight between its middle and the next one's."""
+    after = np.roll(width, -1)
+    faces = after[:, None] * cells + width[:, None] * np.roll(cells, -1, axis=0)
+    return np.asarray(faces / (width + after)[:, None])
+
+
+def _on_the_way(cells: Array, back: Array) -> Array:
+    """Mean values between the middles of each column of cells and of the next one."""
+    after = np.roll(back, -1)
+    ways = back[:, None] * cells + after[:, None] * np.roll(cells, -1, axis=0)
+    return np.asarray(ways / (back + after)[:, None])
 
 
 _NONE_AROUND = np.zeros((1, 1))

@@ -223,7 +223,7 @@ def _pairs(
 def _around_alone(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
     """What does not go with temperatures that change around alone; as `_pairs`."""
     heat, here = film.heat, 'with heat over the area on rung = "reduced"'
-    yield "shape", bearing.shape, bool(bearing.shape.segments), f"a whole bore {here}"
+    yield "shape", bearing.shape, bearing.has_pads, f"a bore without tilting pads {here}"
     yield "supply", film.supply, True, f"None {here}"
     settled = getattr(heat, "stiffness", "") == "settled"
     yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
