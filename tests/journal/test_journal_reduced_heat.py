@@ -12,11 +12,13 @@ from loadflow.journal import (
     Film,
     FilmHeat,
     GasMixture,
+    Groove,
     JournalBearing,
     Lobes,
     LocalShell,
     Lubricant,
     RingGrowth,
+    Supply,
     TiltingPads,
 )
 from loadflow.journal.line import Line
@@ -30,6 +32,7 @@ LOAD, SPEED = np.array([4e4, 3e3]), 100.0
 HEAT = FilmHeat("iso-vg-68", shell_transfer=500.0, shell_temperature=313.15)
 ROUGH = Contact(AsperityContact(roughness=2e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
 GROWS = replace(HEAT, growth=RingGrowth(0.3))
+POCKET = Supply((Groove(1.57, arc=0.3, length=0.08, pressure=3e5),))
 FINE = (96, 24)
 TOLD = ("minimum_film", "maximum_pressure", "friction_power")
 
@@ -94,6 +97,44 @@ def test_oil_mixes_between_segments_as_on_the_grid(shape, more, line):
     assert own.temperature == pytest.approx(float(grid.temperature), abs=0.05)
     for name in ("trailing_temperature", "leading_temperature"):
         np.testing.assert_allclose(getattr(own, name), getattr(grid, name), atol=0.2)
+
+
+@pytest.mark.parametrize(
+    ("supply", "more", "line"),
+    [
+        (POCKET, {}, {}),
+        (Supply((*POCKET.grooves, Groove(-1.57, arc=0.3, pressure=3e5))), {}, {"tilt": (0, 1e-4)}),
+        (Supply((Groove(1.57, arc=0.3, length=0.03, axial=0.04, pressure=3e5),)), {}, {}),
+        (POCKET, {"heat": replace(GROWS, points=4)}, {}),
+    ],
+)
+def test_fresh_oil_mixes_in_grooves_as_on_the_grid(supply, more, line):
+    """In a pocket, one beside a groove of all the width under tilt, and a pair of pockets."""
+    own, grid = (
+        BEARING.equilibrium(LOAD, SPEED, film(rung, FINE, supply=supply, **more), **line)
+        for rung in ("reduced", "grid")
+    )
+    assert own.heat_imbalance < 1e-8
+    for name, most in zip(TOLD, (0.006 if "heat" in more else 0.004, 0.007, 0.004)):
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
+    assert own.temperature == pytest.approx(float(grid.temperature), abs=0.1)
+    assert own.maximum_temperature == pytest.approx(float(grid.maximum_temperature), abs=0.2)
+    for name in ("trailing_temperature", "leading_temperature"):
+        np.testing.assert_allclose(getattr(own, name), getattr(grid, name), atol=0.3)
+
+
+@pytest.mark.parametrize("given", [{}, {"step": "adaptive"}, {"periodic": True}])
+def test_a_path_beside_a_pocket_is_that_of_the_grid(given):
+    time = np.linspace(0.0, 0.1, 21)
+    loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
+    loads[-1] = loads[0]
+    own, grid = (
+        BEARING.orbit(time, loads, SPEED, film(rung, FINE, supply=POCKET), **given)
+        for rung in ("reduced", "grid")
+    )
+    assert own.attrs["heat_imbalance"] < 1e-8
+    for name, most in zip(TOLD, (0.006, 0.007, 0.003)):
+        np.testing.assert_allclose(own[name], grid[name], rtol=most)
 
 
 def test_a_closed_path_between_lobes_is_that_of_the_grid():

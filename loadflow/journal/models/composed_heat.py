@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.energy_balance import FRESH, Flows
+from loadflow.journal.film.grooves import groove_numbers
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.ring_growth import RingExpansion, require_round
 from loadflow.journal.film.temperatures import Temperatures, Warmth
@@ -45,7 +46,7 @@ from loadflow.journal.models.composed_model import (
 from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.ring import Ring
-from loadflow.journal.models.width_modes import Nodes
+from loadflow.journal.models.strips import made_in_film, passed_on, shares_of, strip_edges
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.warm import (
@@ -103,17 +104,19 @@ class StripFilm(Temperatures):
         units = model.units
         self.mirrored = not model.whole
         self._share = 0.5 if model.whole else 1.0  # the units are those of half of the width
-        count = max(model.options.cells[1], _LEAST_STRIPS) // (1 if model.whole else 2)
-        end = float(units.mesh.z_edges[-1])
-        self._edges = np.linspace(-end if model.whole else 0.0, end, count + 1)
+        end, supply = float(units.mesh.z_edges[-1]), model.options.supply
+        across = max(model.options.cells[1], _LEAST_STRIPS)
+        self._edges = strip_edges(end, across, model.whole, supply, units.radius)
+        self.z = 0.5 * (self._edges[1:] + self._edges[:-1])
         area = self._share * units.mirrors * units.radius**2
         ring = model.film.ring
         areas = area * np.outer(ring.width, np.diff(self._edges))
-        labels = np.where(ring.groove, np.cumsum(ring.groove) - 1, -1)
-        labels = np.repeat(labels[:, None], count, axis=1)
-        super().__init__(units, heat, areas, labels, int(ring.groove.sum()))
-        self.columns = _Columns.of(ring)
-        self.z, self._areas = 0.5 * (self._edges[1:] + self._edges[:-1]), areas
+        self.columns, self._areas = _Columns.of(ring), areas
+        asked = model.options.cells[0], units.radius
+        labels = groove_numbers(self.columns.angle, self.z, end, supply, *asked)
+        count, own = units.pockets.count, ring.groove & (labels < 0).all(axis=1)
+        labels[own] = count + np.cumsum(own)[own, None] - 1  # between segments
+        super().__init__(units, heat, areas, labels, count + int(own.sum()))
         if heat.growth is not None:
             if ring.shaped:
                 require_round(heat.growth, float(ring.width[ring.groove].max()))
@@ -145,7 +148,7 @@ class StripFilm(Temperatures):
     def made(self, model: ComposedFilm, speed: float, rubbed: float) -> Made:
         """What the film last solved carries and makes; its asperities make the heat `rubbed`, W."""
         film, work, units = model.film, model.work, self.film
-        ring, nodes, shares = film.ring, film.nodes, self._shares(film.nodes)
+        ring, nodes, shares = film.ring, film.nodes, shares_of(film.nodes, self._edges)
         points, inner = nodes.slopes.shape
         p, fill = (work.state[row, :, :inner] for row in (P, FILL))
         wedge, weights = 0.5 * ring.slope * speed, nodes.weights
@@ -166,24 +169,26 @@ class StripFilm(Temperatures):
         carries[:, :inner] = p >= load
         across = crossing * work.slope[:, :points] * carries
         around = dragged - conducts * rise
-        first, closed = np.zeros(self.shape[0]), ring.groove
-        crossing[closed], across[closed] = 0.0, 0.0
-        if model.whole:  # over the lower end leaves what reaches its strip, but for what that drags
-            drags = around[:, inner] - np.roll(around[:, inner], 1)
-            first = np.where(closed, 0.0, drags + crossing @ nodes.end_slopes[:, 0])
+        crossing[ring.groove], across[ring.groove] = 0.0, 0.0
+        # over an end leaves what reaches its point, but for what that drags
+        drags = around[:, -nodes.ends.size :] - np.roll(around[:, -nodes.ends.size :], 1, axis=0)
+        drawn = np.where(ring.groove[:, None], 0.0, drags + crossing @ nodes.end_slopes)
+        closed = np.repeat(ring.groove[:, None], points, axis=1)
+        closed[:, :inner] |= film.held.grooves >= 0
         unit = self._share * units.pockets.flow_unit
         clearance = self._clearance
         drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
-        ahead = np.where(np.roll(closed, -1), 1.0, 0.5)[:, None]  # all of it where the film ends
-        behind = np.where(np.roll(closed, 1), 1.0, 0.5)[:, None]
+        # all of it where the film ends
+        ahead, behind = (np.where(np.roll(closed, way, axis=0), 1.0, 0.5) for way in (-1, 1))
+        ahead, behind = ahead * ~closed, behind * ~closed
         pumped = unit * (across + ahead * along + behind * np.roll(along, 1, axis=0))
         pumped += self._rubbed(model, rubbed)
         gaps = (clearance * work.gap[MEAN, :, :points] * weights) @ shares / np.diff(self._edges)
         return Made(
-            self._between(unit * around @ shares, unit * dragged @ shares, unit * first),
+            self._between(unit * around @ shares, unit * dragged @ shares, unit * drawn),
             gaps[self.wet],
-            (drag * speed**2 * work.sheared[:, :points] @ shares)[self.wet],
-            (pumped @ shares)[self.wet],
+            made_in_film(drag * speed**2 * work.sheared[:, :points], shares, self.wet)[self.wet],
+            made_in_film(pumped, shares, self.wet)[self.wet],
         )
 
     def of(self, films: Sequence[Made], guess: Array) -> Warmth:
@@ -195,27 +200,16 @@ class StripFilm(Temperatures):
         return self.balanced(Flows.mean([one.flows for one in films]), gaps, sheared, pumped, guess)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _shares(self, nodes: Nodes) -> Array:
-        """Share of the width of each point that lies in each strip (l, strips)."""
-        order = np.argsort(nodes.z)
-        ends = self._edges[0] + np.append(0.0, np.cumsum(nodes.weights[order]))
-        low = np.maximum(ends[:-1, None], self._edges[:-1])
-        within = np.maximum(np.minimum(ends[1:, None], self._edges[1:]) - low, 0.0)
-        shares = np.empty(within.shape)
-        shares[order] = within / within.sum(axis=1, keepdims=True)
-        return shares
-
-    def _between(self, around: Array, dragged: Array, first: Array) -> Flows:
-        """Flows along the strips and between them, of which `first` comes over the lower end."""
-        cells = self._cells
-        fresh = np.full((self.shape[0], 1), FRESH)
+    def _between(self, around: Array, dragged: Array, drawn: Array) -> Flows:
+        """Flows along the strips and between them, of which `drawn` (nx, e) come over the ends."""
+        cells, fresh = self._cells, np.full((self.shape[0], 1), FRESH)
         gained = np.roll(around, 1, axis=0) - around  # what each passes on to the next strip
-        gained[~self.wet] = 0.0
-        passed = np.cumsum(np.column_stack([first, gained]), axis=1)
-        low = np.append(cells, np.hstack([fresh, cells]))
-        high = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
+        low = np.zeros(self.shape[0]) if self.mirrored else drawn[:, 0]
+        passed = passed_on(gained, low, drawn[:, -1], self.wet)
+        before = np.append(cells, np.hstack([fresh, cells]))
+        behind = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
         flow, drag = np.append(around, passed), np.append(dragged, np.zeros(passed.size))
-        return self._flows(low, high, flow, drag)
+        return self._flows(before, behind, flow, drag)
 
     def _rubbed(self, model: ComposedFilm, rubbed: float) -> Array | float:
         """Heat of the asperities at the points, W, shared out as they are pressed there."""
@@ -226,6 +220,7 @@ class StripFilm(Temperatures):
         gaps = model.work.gap[PLANES, :, : nodes.z.size] * model.bearing.clearance
         pressed = np.asarray(contact.asperities.pressure(gaps)) * nodes.weights
         pressed *= (model.film.ring.width * ~model.film.ring.groove)[:, None]
+        pressed[:, : nodes.slopes.shape[1]] *= model.film.held.drags
         if not pressed.any():  # they touch between the cells
             pressed.flat[gaps.argmin()] = 1.0
         return np.asarray(rubbed * pressed / pressed.sum())
@@ -248,7 +243,8 @@ class _Around:
         self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
         self.limits = replace(limits, strict=False)
         # the fewest points tell no narrow strips apart
-        self.levels = levels_at_rest(self.options)[1:]
+        levels = levels_at_rest(self.options)
+        self.levels = levels[1:] or levels  # beside grooves there is one
         given = self.bearing, self.options, self.speed, self.line, self.levels[0]
         self.heat = cast("FilmHeat", options.heat)
         self.equation = StripFilm(build(*given, at_rest=True), self.heat)
