@@ -28,7 +28,7 @@ from loadflow.journal.film import _kernels as coefficient
 from loadflow.journal.film.asperity_load import NodeLoad
 from loadflow.journal.film.energy_balance import FRESH, Flows
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_warm import AcrossFilm, WarmGap
+from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.heat import FilmHeat
@@ -72,33 +72,11 @@ class EnergyEquation(Temperatures):
         grows = heat.growth is not None
         self._expansion = RingExpansion(heat, film.mesh, film.radius) if grows else None
 
-    def state(self, warmth: Warmth | None) -> Array:
-        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil.
-
-        Those of the cells, and of a shaft that grows.
-        """
-        cells = super().state(warmth)
-        if self._expansion is None:
-            return cells
-        heat = self.heat
-        cold = heat.shaft_temperature or heat.inlet_temperature
-        return np.append(cells, cold if warmth is None else warmth.shaft)
-
     def thicken(self, state: Array) -> None:
         """Give the film the viscosity and the growth of its cells at the temperatures `state`."""
-        temperature = self.cells_of(state)
-        plain = self.heat.liquid.viscosity(temperature) / self.film.viscosity
-        every = AcrossFilm(plain, plain.copy(), np.ones_like(plain))
-        if self._expansion is not None:
-            self._shaft = float(state[-1])
-        across = self._viscosity(temperature[self.wet], self._shaft, self._skew)
-        for all_, wet in zip(every, across.film):
-            all_[self.wet] = wet
-        self.gap.thicken(every)
-        if self._expansion is not None:
-            shell = temperature.copy()
-            shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
-            growth = self._expansion.of(shell, self._shaft)
+        across, growth = self._at_state(state)
+        self.gap.thicken(across)
+        if growth is not None:
             self.gap.expand(growth / (self.film.relative_clearance * self.film.radius))
 
     @property
@@ -226,18 +204,7 @@ class EnergyEquation(Temperatures):
         low, high = self._faces
         flow = np.concatenate([around.ravel(), across.ravel()])
         drag = np.append(dragged.ravel(), np.zeros(across.size))
-        if self.volumes.moments:  # between cells, what pressure drives back goes its own way
-            size = self.size
-            apart = (drag * (flow - drag) < 0.0) & (np.maximum(low, high) < size)
-            apart &= np.minimum(low, high) >= 0
-            low, high = np.append(low, low[apart]), np.append(high, high[apart])
-            flow = np.append(np.where(apart, drag, flow), (flow - drag)[apart])
-            drag = np.append(drag, np.zeros(int(apart.sum())))
-        some = (flow != 0.0) & (low != high)
-        low, high, flow, drag = low[some], high[some], flow[some], drag[some]
-        on = flow > 0.0
-        way = np.where(on, 1.0, -1.0)
-        return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
+        return self._flows(low, high, flow, drag)
 
 
 def _grooves(film: DiscreteFilm) -> tuple[Numbers, int]:

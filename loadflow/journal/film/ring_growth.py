@@ -12,12 +12,11 @@ u/(α a T_n) = (A a^n/(n + 1) − B a^−n/(n − 1))/(A a^n + B a^−n), −1/(
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.mesh import Mesh
 from loadflow.journal.heat import FilmHeat, RingGrowth
 from loadflow.numerics.fields import require
 
@@ -152,6 +151,22 @@ def ring_motion(n: int, outer: float, biot: float, held: bool, nu: float) -> flo
     return float(bore + sum(m.u * p for m, p in zip(_free_motions(n, kappa, 1.0, outer), parts)))
 
 
+class CellsAround(Protocol):
+    """Cells of a film around: edges (nx + 1,), middles and widths (nx,), rad."""
+
+    @property
+    def edges(self) -> Array:
+        """Edges."""
+
+    @property
+    def angle(self) -> Array:
+        """Middles."""
+
+    @property
+    def dx(self) -> Array:
+        """Widths."""
+
+
 class RingExpansion:
     """Growth of the gap of the cells of a film by the temperatures of shell and shaft.
 
@@ -159,7 +174,7 @@ class RingExpansion:
     ----------
     heat : FilmHeat
         With `growth`.
-    mesh : Mesh
+    mesh : CellsAround
         Cells; where a bore ends in a groove, that is as warm as both of its sides on average.
     radius : float
         m.
@@ -171,15 +186,14 @@ class RingExpansion:
         does not conduct.
     """
 
-    def __init__(self, heat: FilmHeat, mesh: Mesh, radius: float) -> None:
+    def __init__(self, heat: FilmHeat, mesh: CellsAround, radius: float) -> None:
         growth = heat.growth
         assert growth is not None
         self.heat, self.growth, self.radius = heat, growth, radius
         diameter, bore = growth.outer_diameter, 2 * radius
         require(diameter > bore, "growth.outer_diameter", diameter, f"m, above the bore's {bore:g}")
         without = 2 * math.pi - float(mesh.dx.sum())
-        words = "None but where a film runs round, which warms the ring"
-        require(without < _OPEN, "growth", growth, words)
+        require_round(growth, without)
         outer, biot = diameter / bore, _biot(heat, growth, radius)
         shape = growth.held, growth.poisson_ratio
         self._even = ring_factor(0, outer, 0.0, *shape)
@@ -207,6 +221,18 @@ class RingExpansion:
         bore = self._even * (back - cold) + self._matrix @ (shell - back)
         turning = growth.shaft_expansion * (shaft - cold)
         return np.asarray(self.radius * (growth.shell_expansion * bore - turning))
+
+
+def require_round(growth: RingGrowth, without: float) -> None:
+    """Refuse the growth of a ring that has no film along `without`, rad, in one piece.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        More than an eighth of the ring.
+    """
+    words = "None but where a film runs round, which warms the ring"
+    require(without < _OPEN, "growth", growth, words)
 
 
 def _biot(heat: FilmHeat, growth: RingGrowth, radius: float) -> float:

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film.energy_balance import FRESH, Flows, HeatBalance, Volumes, sparse
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap_warm import AcrossFilm
+from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.surface_temperatures import Across, Surfaces
 from loadflow.journal.heat import HOTTEST, FilmHeat
 
@@ -112,6 +114,7 @@ class Temperatures(ABC):
         self._skew: Array | float = 0.0
         clearance = film.relative_clearance * film.radius
         self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
+        self._expansion: RingExpansion | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -134,10 +137,17 @@ class Temperatures(ABC):
         """Give the film what it has of the temperatures `state`: viscosity, and growth if any."""
 
     def state(self, warmth: Warmth | None) -> Array:
-        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil."""
-        if warmth is None:
-            return np.full(self._cells.size, self.heat.inlet_temperature)
-        return warmth.cells.ravel()
+        """Temperatures, K, by which the film is as it is; without `warmth` those of cold oil.
+
+        Those of the cells, and of a shaft that grows.
+        """
+        heat = self.heat
+        cells = np.full(self._cells.size, heat.inlet_temperature)
+        cells = cells if warmth is None else warmth.cells.ravel()
+        if self._expansion is None:
+            return cells
+        cold = heat.shaft_temperature or heat.inlet_temperature
+        return np.append(cells, cold if warmth is None else warmth.shaft)
 
     def cells_of(self, state: Array) -> Array:
         """Temperatures of the cells (nx, nz) in a `state`, K."""
@@ -197,6 +207,37 @@ class Temperatures(ABC):
         return self._told(t, flows, sheared, pumped, residual)
 
     # --- inside ----------------------------------------------------------------------------------
+    def _at_state(self, state: Array) -> tuple[AcrossFilm, Array | None]:
+        """Viscosity of the cells (nx, nz) at the temperatures `state`, and what they grow by, m."""
+        temperature = self.cells_of(state)
+        plain = np.asarray(self.heat.liquid.viscosity(temperature) / self.film.viscosity)
+        every = AcrossFilm(plain, plain.copy(), np.ones_like(plain))
+        if self._expansion is not None:
+            self._shaft = float(state[-1])
+        across = self._viscosity(temperature[self.wet], self._shaft, self._skew)
+        for all_, wet in zip(every, across.film):
+            all_[self.wet] = wet
+        if self._expansion is None:
+            return every, None
+        shell = temperature.copy()
+        shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
+        return every, self._expansion.of(shell, self._shaft)
+
+    def _flows(self, low: Numbers, high: Numbers, flow: Array, drag: Array) -> Flows:
+        """Flows from volumes `low` to `high`, of either sign; those within one volume left out."""
+        if self.volumes.moments:  # between cells, what pressure drives back goes its own way
+            size = self.size
+            apart = (drag * (flow - drag) < 0.0) & (np.maximum(low, high) < size)
+            apart &= np.minimum(low, high) >= 0
+            low, high = np.append(low, low[apart]), np.append(high, high[apart])
+            flow = np.append(np.where(apart, drag, flow), (flow - drag)[apart])
+            drag = np.append(drag, np.zeros(int(apart.sum())))
+        some = (flow != 0.0) & (low != high)
+        low, high, flow, drag = low[some], high[some], flow[some], drag[some]
+        on = flow > 0.0
+        way = np.where(on, 1.0, -1.0)
+        return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
+
     def _as_supplied(self) -> Array:
         """Unknowns of a film that stands, makes no heat and passes none on."""
         t = np.zeros(self.volumes.unknowns)

@@ -33,6 +33,7 @@ def place(film, work, q):
         work.centre[1, k] = q[1] - q[2] * z[k] + 0.5 * work.bend[1] * z[k] * z[k]
     give, gap, face, ring = film.give, work.gap, work.face, film.ring
     planes, faces, p = gap[PLANES], face[FACE_PLANES], work.state[LOAD]
+    grows, wider, wider_faces = film.uneven.grows, film.uneven.wider, film.uneven.wider_faces
     for at in range(0, wide, LANES):
         z_at, depth = take(film.lanes.z, at), take(film.lanes.depth, at)
         ex = (z_at * (0.5 * work.bend[0]) + q[3]) * z_at + q[0]
@@ -46,6 +47,8 @@ def place(film, work, q):
                 given = take(film.lanes.inner, at) * give
                 h = h + (take(p, here) - ring.p_edge) * given
                 after = after + (0.5 * (take(p, here) + take(p, right)) - ring.p_edge) * given
+            if grows:
+                h, after = h + take(wider, here), after + take(wider_faces, here)
             put(planes, here, h)
             put(faces, here, after)
     if film.rough.size > 0.0:
@@ -68,8 +71,8 @@ def place(film, work, q):
 
 @once
 def _thickened_gap(film, work):
-    """Conductances of a liquid of uneven viscosity, from those of one viscosity."""
-    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
+    """Conductances and drag of a liquid of uneven viscosity, from those of one viscosity."""
+    nx, m, even = film.ring.cos.size, film.nodes.slopes.shape[1], film.rough.size == 0.0
     gap, face = work.gap, work.face
     for i in range(nx):
         for k in range(film.nodes.z.size):
@@ -78,6 +81,9 @@ def _thickened_gap(film, work):
         for k in range(m):
             face[FLOW, i, k] /= film.uneven.faces[i, k]
             face[FLOW_SLOPE, i, k] /= film.uneven.faces[i, k]
+            face[DRAG, i, k] *= film.uneven.drags[i, k]
+            rise = 1.0 if even else face[DRAG_SLOPE, i, k]
+            face[DRAG_SLOPE, i, k] = rise * film.uneven.drags[i, k]
 
 
 @once
@@ -181,11 +187,11 @@ def narrowest(film, work):
     Around a rigid shell it is that between the points, too.
     """
     least = 1e300
+    if film.give == 0.0 and film.uneven.grows:
+        return _opened_gap(film, _narrowest_grown(film, work))
     if film.give == 0.0:
         for k in range(film.places.z.size):
-            x, y = work.centre[0, k], work.centre[1, k]
-            gap = least_around(film.ring, x, y) if film.ring.shaped else 1.0 - np.hypot(x, y)
-            least = min(least, film.places.depth[k] + gap)
+            least = min(least, _narrowest_at(film, work, k))
         return least
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
     for i in range(nx):
@@ -200,6 +206,40 @@ def narrowest(film, work):
 @beside(lambda film, gap: gap)
 def _opened_gap(film, gap):
     return opened(film.yielding, gap)[0]
+
+
+@inner
+def _narrowest_at(film, work, k):
+    """Narrowest gap around a rigid bore at one of the `places`, but for growth by heat."""
+    x, y = work.centre[0, k], work.centre[1, k]
+    gap = least_around(film.ring, x, y) if film.ring.shaped else 1.0 - np.hypot(x, y)
+    return film.places.depth[k] + gap
+
+
+@once
+def _narrowest_grown(film, work):
+    """Narrowest gap of the mean planes where it has grown: between the cells that of a parabola.
+
+    Between the points, where a relief is narrowest, it is less by what it is without growth.
+    """
+    nx, points, planes, faces = film.ring.cos.size, film.nodes.z.size, work.gap, work.face
+    least, at_points, at_all = 1e300, 1e300, 1e300
+    for k in range(points):
+        for i in range(nx):
+            if film.ring.groove[i]:
+                continue
+            left = i - 1 if i > 0 else nx - 1
+            before, h = faces[FACE_PLANES, left, k], planes[PLANES, i, k]
+            after = faces[FACE_PLANES, i, k]
+            least = min(least, before, h, after)
+            bend, slope = before - 2.0 * h + after, 0.5 * (after - before)
+            if abs(slope) < bend:
+                least = min(least, h - 0.5 * slope * slope / bend)
+    for k in range(film.places.z.size):
+        at_all = min(at_all, _narrowest_at(film, work, k))
+        if k < points:
+            at_points = at_all
+    return least + at_all - at_points
 
 
 @inner
@@ -286,7 +326,7 @@ def _touch_shell(film, work, q):
     `work.pressed`, too.
     """
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
-    yielding, ring, give = film.yielding, film.ring, film.give
+    yielding, ring, give, grows = film.yielding, film.ring, film.give, film.uneven.grows
     p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
     pressed[:] = 0.0
     beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
@@ -296,12 +336,17 @@ def _touch_shell(film, work, q):
         mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
         mid_y = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
         depth = yielding.depth[g]
-        if not ring.shaped and 1.0 + depth - np.hypot(mid_x, mid_y) >= beyond:
+        far = 1.0 + depth - np.hypot(mid_x, mid_y) >= beyond
+        if far and not (ring.shaped or grows):
             continue
         there = give * _across(yielding.values[g], p[0], ring.p_edge)
+        if grows:
+            there += film.uneven.beside[0, g]
         for i in range(nx):
             right = i + 1 if i + 1 < nx else 0
             here, there = there, give * _across(yielding.values[g], p[right], ring.p_edge)
+            if grows:
+                there += film.uneven.beside[right, g]
             if yielding.grooves[g, i]:
                 continue
             step = ring.apart[i]

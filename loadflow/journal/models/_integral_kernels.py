@@ -213,7 +213,7 @@ def _uneven(film, work):
             part = film.nodes.weights[k] * film.ring.width[i] * inverse
             if film.uneven.on:
                 work.sheared[i, k] = part
-                part *= film.uneven.cells[i, k]
+                part *= film.uneven.shear[i, k]
             shear += part
     return shear, grown
 

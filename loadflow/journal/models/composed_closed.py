@@ -19,7 +19,6 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._pad_kernels import BEFORE, LAST
-from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import contact_share, warn_unresolved
 from loadflow.journal.models.composed_path import (
     STEP_BEFORE,
@@ -28,6 +27,7 @@ from loadflow.journal.models.composed_path import (
     State,
     march_of,
 )
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.periodic import DEPTH, not_closed
 from loadflow.numerics.anderson import Anderson

@@ -82,14 +82,21 @@ def _line_of_contact(
 
 
 def yielding_of(
-    bearing: JournalGeometry, options: Film, give: float, whole: bool, points: int, ring: Ring
+    bearing: JournalGeometry,
+    options: Film,
+    give: float,
+    whole: bool,
+    points: int,
+    ring: Ring,
+    grows: bool = False,
 ) -> Yielding:
     """Asperities on a shell that gives way by `give`, clearances per Pa, or in a shaped bore.
 
-    `points` across carry the pressure.
+    `points` across carry the pressure; a bore that `grows` by heat has a shape, too.
     """
     contact, supply = options.contact, options.supply
-    if contact is None or not (give or bearing.shape.segments or bearing.relief or supply):
+    shaped = bearing.shape.segments or bearing.relief
+    if contact is None or not (give or grows or shaped or supply):
         return RIGID
     half = bearing.width / bearing.diameter
     x, w = _lines(supply, bearing, whole)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
 from loadflow.journal.models.composed_supply import Held
+from loadflow.journal.models.composed_uneven import Uneven
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
 from loadflow.numerics.lanes import aligned, lanes_for
@@ -203,47 +204,6 @@ class Regime(NamedTuple):
 
 
 LAMINAR = Regime(False, 0.0, 0.0, 0.0, 0.0)
-
-
-class Uneven(NamedTuple):
-    """Viscosity that changes around and across, over that of the film.
-
-    Friction then counts where there is liquid, as heat is made there.
-
-    Attributes
-    ----------
-    on : bool
-        Whether it does.
-    cells, faces : array (nx, l)
-        At the points, and on the way between those of each column and of the next.
-    """
-
-    on: bool
-    cells: Array
-    faces: Array
-
-
-class Thickness(NamedTuple):
-    """Viscosity of cells around and across, over that of the film, to be had at any points.
-
-    Attributes
-    ----------
-    z : array (s,)
-        Increasing, from mid-plane, shaft radii.
-    values : array (nx, s)
-        On even cells around.
-    """
-
-    z: Array
-    values: Array
-
-    def at(self, points: Array) -> Uneven:
-        """The same at `points` across (l,), straight between its own."""
-        cells = np.stack([np.interp(points, self.z, row) for row in self.values])
-        return Uneven(True, cells, 0.5 * (cells + np.roll(cells, -1, axis=0)))
-
-
-EVEN = Uneven(False, _NONE_AROUND, _NONE_AROUND)
 
 
 class Composed(NamedTuple):

@@ -21,7 +21,9 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.energy_balance import FRESH, Flows
+from loadflow.journal.film.grooves import groove_numbers
 from loadflow.journal.film.linearised import Linear
+from loadflow.journal.film.ring_growth import RingExpansion, require_round
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -36,7 +38,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     MEAN,
     PLANES,
 )
-from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import (
     ComposedFilm,
     build,
@@ -44,10 +45,18 @@ from loadflow.journal.models.composed_model import (
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
-from loadflow.journal.models.width_modes import Nodes
+from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.models.ring import Ring
+from loadflow.journal.models.strips import made_in_film, passed_on, shares_of, strip_edges
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import OVER_AREA, WarmFilm, coupled, heat_columns, no_warmth
+from loadflow.journal.solvers.warm import (
+    WarmFilm,
+    coupled,
+    heat_columns,
+    in_grown_clearances,
+    no_warmth,
+)
 from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
 from loadflow.numerics.convergence import Limits
 
@@ -66,6 +75,21 @@ class Made(NamedTuple):
     pumped: Array
 
 
+class _Columns(NamedTuple):
+    """Columns of cells around, as `RingExpansion` asks for them."""
+
+    edges: Array
+    angle: Array
+    dx: Array
+
+    @classmethod
+    def of(cls, ring: Ring) -> _Columns:
+        """Those of a film, and the grooves between its segments."""
+        angle = np.unwrap(np.arctan2(ring.sin, ring.cos))
+        edges = np.append(angle - 0.5 * ring.width, angle[-1] + 0.5 * ring.width[-1])
+        return cls(edges, angle, ring.width)
+
+
 class StripFilm(Temperatures):
     """Energy equation of the strips of a reduced film, from lower to higher z.
 
@@ -81,24 +105,51 @@ class StripFilm(Temperatures):
         units = model.units
         self.mirrored = not model.whole
         self._share = 0.5 if model.whole else 1.0  # the units are those of half of the width
-        count = max(model.options.cells[1], _LEAST_STRIPS) // (1 if model.whole else 2)
-        end = float(units.mesh.z_edges[-1])
-        self._edges = np.linspace(-end if model.whole else 0.0, end, count + 1)
-        area = self._share * units.mirrors * units.radius**2
-        areas = area * np.outer(model.film.ring.width, np.diff(self._edges))
-        super().__init__(units, heat, areas, np.full(areas.shape, -1, dtype=np.int64), 0)
+        end, supply = float(units.mesh.z_edges[-1]), model.options.supply
+        across = max(model.options.cells[1], _LEAST_STRIPS)
+        self._edges = strip_edges(end, across, model.whole, supply, units.radius)
         self.z = 0.5 * (self._edges[1:] + self._edges[:-1])
+        area = self._share * units.mirrors * units.radius**2
+        ring = model.film.ring
+        areas = area * np.outer(ring.width, np.diff(self._edges))
+        self.columns, self._areas = _Columns.of(ring), areas
+        asked = model.options.cells[0], units.radius
+        labels = groove_numbers(self.columns.angle, self.z, end, supply, *asked)
+        count, own = units.pockets.count, ring.groove & (labels < 0).all(axis=1)
+        labels[own] = count + np.cumsum(own)[own, None] - 1  # between segments
+        super().__init__(units, heat, areas, labels, count + int(own.sum()))
+        if heat.growth is not None:
+            if ring.shaped:
+                require_round(heat.growth, float(ring.width[ring.groove].max()))
+            self._expansion = RingExpansion(heat, self.columns, units.radius)
         self.thicken(self.state(None))
 
     def thicken(self, state: Array) -> None:
-        """Have the viscosity of the temperatures `state`, over that of the film."""
-        viscosity = np.asarray(self.heat.liquid.viscosity(self.cells_of(state)))
-        self.viscosity = Thickness(self.z, viscosity / self.film.viscosity)
+        """Have the viscosity and the growth of the temperatures `state`, in units of the film."""
+        across, growth = self._at_state(state)
+        self._grown = np.zeros(self.shape) if growth is None else growth
+        grown = None if growth is None else growth / self._clearance
+        self.viscosity = Thickness(self.z, across.flow, across.shear, across.drag, grown)
+
+    @property
+    def growth(self) -> Array:
+        """Growth of the gap of the cells by heat, (nx, nz), m."""
+        return self._grown
+
+    @property
+    def mean_growth(self) -> float:
+        """The same on average over the cells, m."""
+        return float(np.average(self._grown, weights=self._areas))
+
+    @property
+    def _clearance(self) -> float:
+        """Of the bearing, m."""
+        return self.film.relative_clearance * self.film.radius
 
     def made(self, model: ComposedFilm, speed: float, rubbed: float) -> Made:
         """What the film last solved carries and makes; its asperities make the heat `rubbed`, W."""
         film, work, units = model.film, model.work, self.film
-        ring, nodes, shares = film.ring, film.nodes, self._shares(film.nodes)
+        ring, nodes, shares = film.ring, film.nodes, shares_of(film.nodes, self._edges)
         points, inner = nodes.slopes.shape
         p, fill = (work.state[row, :, :inner] for row in (P, FILL))
         wedge, weights = 0.5 * ring.slope * speed, nodes.weights
@@ -119,21 +170,26 @@ class StripFilm(Temperatures):
         carries[:, :inner] = p >= load
         across = crossing * work.slope[:, :points] * carries
         around = dragged - conducts * rise
-        first = np.zeros(self.shape[0])
-        if model.whole:  # over the lower end leaves what reaches its strip, but for what that drags
-            drags = around[:, inner] - np.roll(around[:, inner], 1)
-            first = drags + crossing @ nodes.end_slopes[:, 0]
+        crossing[ring.groove], across[ring.groove] = 0.0, 0.0
+        # over an end leaves what reaches its point, but for what that drags
+        drags = around[:, -nodes.ends.size :] - np.roll(around[:, -nodes.ends.size :], 1, axis=0)
+        drawn = np.where(ring.groove[:, None], 0.0, drags + crossing @ nodes.end_slopes)
+        closed = np.repeat(ring.groove[:, None], points, axis=1)
+        closed[:, :inner] |= film.held.grooves >= 0
         unit = self._share * units.pockets.flow_unit
-        clearance = units.relative_clearance * units.radius
+        clearance = self._clearance
         drag = self._share * units.mirrors * units.viscosity * units.radius**4 / clearance
-        pumped = unit * (across + 0.5 * (along + np.roll(along, 1, axis=0)))
+        # all of it where the film ends
+        ahead, behind = (np.where(np.roll(closed, way, axis=0), 1.0, 0.5) for way in (-1, 1))
+        ahead, behind = ahead * ~closed, behind * ~closed
+        pumped = unit * (across + ahead * along + behind * np.roll(along, 1, axis=0))
         pumped += self._rubbed(model, rubbed)
         gaps = (clearance * work.gap[MEAN, :, :points] * weights) @ shares / np.diff(self._edges)
         return Made(
-            self._between(unit * around @ shares, unit * dragged @ shares, unit * first),
-            gaps.ravel(),
-            (drag * speed**2 * work.sheared[:, :points] @ shares).ravel(),
-            (pumped @ shares).ravel(),
+            self._between(unit * around @ shares, unit * dragged @ shares, unit * drawn),
+            gaps[self.wet],
+            made_in_film(drag * speed**2 * work.sheared[:, :points], shares, self.wet)[self.wet],
+            made_in_film(pumped, shares, self.wet)[self.wet],
         )
 
     def of(self, films: Sequence[Made], guess: Array) -> Warmth:
@@ -145,30 +201,16 @@ class StripFilm(Temperatures):
         return self.balanced(Flows.mean([one.flows for one in films]), gaps, sheared, pumped, guess)
 
     # --- inside ----------------------------------------------------------------------------------
-    def _shares(self, nodes: Nodes) -> Array:
-        """Share of the width of each point that lies in each strip (l, strips)."""
-        order = np.argsort(nodes.z)
-        ends = self._edges[0] + np.append(0.0, np.cumsum(nodes.weights[order]))
-        low = np.maximum(ends[:-1, None], self._edges[:-1])
-        within = np.maximum(np.minimum(ends[1:, None], self._edges[1:]) - low, 0.0)
-        shares = np.empty(within.shape)
-        shares[order] = within / within.sum(axis=1, keepdims=True)
-        return shares
-
-    def _between(self, around: Array, dragged: Array, first: Array) -> Flows:
-        """Flows along the strips and between them, of which `first` comes over the lower end."""
-        cells = np.arange(self.size).reshape(self.shape)
-        fresh = np.full((self.shape[0], 1), FRESH)
+    def _between(self, around: Array, dragged: Array, drawn: Array) -> Flows:
+        """Flows along the strips and between them, of which `drawn` (nx, e) come over the ends."""
+        cells, fresh = self._cells, np.full((self.shape[0], 1), FRESH)
         gained = np.roll(around, 1, axis=0) - around  # what each passes on to the next strip
-        passed = np.cumsum(np.column_stack([first, gained]), axis=1)
-        low = np.append(cells, np.hstack([fresh, cells]))
-        high = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
+        low = np.zeros(self.shape[0]) if self.mirrored else drawn[:, 0]
+        passed = passed_on(gained, low, drawn[:, -1], self.wet)
+        before = np.append(cells, np.hstack([fresh, cells]))
+        behind = np.append(np.roll(cells, -1, axis=0), np.hstack([cells, fresh]))
         flow, drag = np.append(around, passed), np.append(dragged, np.zeros(passed.size))
-        some = flow != 0.0
-        low, high, flow, drag = low[some], high[some], flow[some], drag[some]
-        on = flow > 0.0
-        way = np.where(on, 1.0, -1.0)
-        return Flows(np.where(on, low, high), np.where(on, high, low), way * flow, way * drag)
+        return self._flows(before, behind, flow, drag)
 
     def _rubbed(self, model: ComposedFilm, rubbed: float) -> Array | float:
         """Heat of the asperities at the points, W, shared out as they are pressed there."""
@@ -178,7 +220,8 @@ class StripFilm(Temperatures):
         assert contact is not None
         gaps = model.work.gap[PLANES, :, : nodes.z.size] * model.bearing.clearance
         pressed = np.asarray(contact.asperities.pressure(gaps)) * nodes.weights
-        pressed *= model.film.ring.width[:, None]
+        pressed *= (model.film.ring.width * ~model.film.ring.groove)[:, None]
+        pressed[:, : nodes.slopes.shape[1]] *= model.film.held.drags
         if not pressed.any():  # they touch between the cells
             pressed.flat[gaps.argmin()] = 1.0
         return np.asarray(rubbed * pressed / pressed.sum())
@@ -201,7 +244,8 @@ class _Around:
         self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
         self.limits = replace(limits, strict=False)
         # the fewest points tell no narrow strips apart
-        self.levels = levels_at_rest(self.options)[1:]
+        levels = levels_at_rest(self.options)
+        self.levels = levels[1:] or levels  # beside grooves there is one
         given = self.bearing, self.options, self.speed, self.line, self.levels[0]
         self.heat = cast("FilmHeat", options.heat)
         self.equation = StripFilm(build(*given, at_rest=True), self.heat)
@@ -209,6 +253,11 @@ class _Around:
     def film(self, n: int, level: int) -> tuple[RestingFilms, Made | None]:
         """Film of load `n` on the points of a level, and what it makes; None: there is none."""
         one, equation = np.array([n]), self.equation
+        closes, clearance = -float(equation.growth.min()), self.bearing.clearance
+        if closes >= clearance:
+            raise SolverError(
+                f"the shaft has grown into its shell: by {closes:.3g} m of {clearance:.3g}"
+            )
         films = films_at_rest(
             self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
             self.limits, level, viscosity=equation.viscosity,
@@ -324,8 +373,10 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
     z = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
-    where = {"angle": equation.film.mesh.angle, "z": z * bearing.radius}
+    where = {"angle": equation.columns.angle, "z": z * bearing.radius}
     row |= warm | heat_columns(equation, found) | where
+    if heat.growth is not None:
+        row |= in_grown_clearances(row, bearing, equation, found)
     return row | {"converged": found.converged, "iterations": found.solution.iterations}
 
 

@@ -25,14 +25,12 @@ from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN
 from loadflow.journal.models.composed_contact import depth_at, rough_of, yielding_of
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_film import (
-    EVEN,
     LAMINAR,
     Composed,
     ComposedWork,
     Places,
     Regime,
     SmoothFilm,
-    Thickness,
     lanes_of,
     make_work,
 )
@@ -43,6 +41,7 @@ from loadflow.journal.models.composed_supply import (
     put_in_grooves,
     supplied,
 )
+from loadflow.journal.models.composed_uneven import EVEN, Thickness
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
 from loadflow.journal.models.width_modes import (
     Nodes,
@@ -315,7 +314,7 @@ def build(
 
     What a path asks on further points is whether few would do; a film `at_rest` whether these do.
     There are `across` of them beside no groove, if they are told.
-    `viscosity` is that of the cells where it is uneven.
+    `viscosity` is that of the cells where it is uneven, and how the gap has grown by heat.
     """
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
@@ -336,13 +335,18 @@ def build(
     held = held_points(units, options, nodes, ring)
     ring = ring._replace(groove=ring.groove | held.columns)
     places = _places(bearing, nodes.z, half, whole)
-    give = _give(bearing, options)
+    give, uneven = _give(bearing, options), EVEN
+    grows = viscosity is not None and viscosity.growth is not None
+    yielding = yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring, grows)
+    if viscosity is not None:
+        uneven = viscosity.at(nodes.z, yielding.z, ring.back, ring.width)
+        places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
+        yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
     effects = options.contact, options.turbulence, options.supply
     film = (SmoothFilm if effects == (None, None, None) else Composed)(
         ring, nodes, places, lanes_of(nodes, places.depth), give,
-        rough_of(bearing, options.contact, whole, units),
-        yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring),
-        _regime(bearing, options), held, EVEN if viscosity is None else viscosity.at(nodes.z),
+        rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
+        uneven,
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
     return ComposedFilm(bearing, options, line, units, film, work)

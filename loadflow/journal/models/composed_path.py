@@ -24,7 +24,6 @@ from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._pad_kernels import LAST
 from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_creep import Creep
-from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import (
     LEVELS,
     ComposedFilm,
@@ -42,6 +41,7 @@ from loadflow.journal.models.composed_pads import (
     narrowest_on_pads,
     pads_of,
 )
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states

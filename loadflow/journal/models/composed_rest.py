@@ -17,8 +17,8 @@ from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_error import Judged
-from loadflow.journal.models.composed_film import Thickness
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE

@@ -197,7 +197,7 @@ def _pairs(
         closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
         yield "step", "adaptive", closed and steps.step == "adaptive", given
     if film.rung == "reduced" and over_area:
-        yield from _around_alone(film, bearing)
+        yield from _on_strips(film, bearing)
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
@@ -221,13 +221,10 @@ def _pairs(
     yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
 
 
-def _around_alone(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
-    """What does not go with temperatures that change around alone; as `_pairs`."""
+def _on_strips(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
+    """What does not go with temperatures on strips; as `_pairs`."""
     heat, here = film.heat, 'with heat over the area on rung = "reduced"'
-    yield "shape", bearing.shape, bool(bearing.shape.segments), f"a whole bore {here}"
-    yield "supply", film.supply, True, f"None {here}"
-    yield "heat.points", getattr(heat, "points", 1), getattr(heat, "points", 1) != 1, f"1 {here}"
-    yield "heat.growth", getattr(heat, "growth", None), True, f"None {here}"
+    yield "shape", bearing.shape, bearing.has_pads, f"a bore without tilting pads {here}"
     settled = getattr(heat, "stiffness", "") == "settled"
     yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
 

@@ -352,14 +352,14 @@ def _row(
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), _flagged(found), whirl)
     if heat.growth is not None:
-        row |= _grown(row, bearing, equation, found)
+        row |= in_grown_clearances(row, bearing, equation, found)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
     both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
     return row | heat_columns(equation, found) | {"angle": angle, "z": both}
 
 
-def _grown(
-    row: dict[str, Any], bearing: JournalGeometry, equation: EnergyEquation, found: WarmFilm
+def in_grown_clearances(
+    row: dict[str, Any], bearing: JournalGeometry, equation: Temperatures, found: WarmFilm
 ) -> dict[str, Any]:
     """What a `row` says in clearances, in those that shaft and shell have as warm as they are."""
     if not found.converged:
