@@ -37,6 +37,9 @@ from loadflow.reduction import damage_equivalent_load
 from loadflow.report import figures
 from loadflow.rolling import (
     BallBearing,
+    FlexibleRings,
+    RingBeam,
+    RingSection,
     RingSections,
     RollerBearing,
     SlewingBearing,
@@ -152,6 +155,23 @@ def test_pressures_of_elements_are_those_of_hertz(bearing):
     assert ratio == pytest.approx((force[other] / force[k]) ** exponent)
     drawn = state.plot(what="pressure").axes[0].lines[0].get_ydata()
     assert np.allclose(drawn[:-1], state.element_pressure / 1e6)
+
+
+def test_bent_rings_are_drawn_by_ring_and_row_in_micrometres():
+    bearing = RollerBearing(
+        rollers=24, roller_diameter=0.04, roller_length=0.05, pitch_diameter=0.5, clearance=5e-5
+    )
+    ring = RingBeam(section=RingSection.rectangle(0.06, 0.03), radius=0.29)
+    bent = bearing.equilibrium((2e5, 0, 0), rings=FlexibleRings(outer=ring))
+    axis = bent.plot(what="rings").axes[0]
+    line = axis.lines[0]
+    assert line.get_label() == "outer ring, row 1"
+    outward = bent.ring_displacement("outer")[0, :, 0]
+    assert line.get_ydata()[:-1] == pytest.approx(1e6 * outward)
+    assert outward[0] > 0 > outward[6]  # an oval: out under the load, in beside it
+    assert axis.get_ylim()[0] < 1e6 * outward.min()
+    with pytest.raises(InputError, match="both rings are rigid"):
+        bearing.equilibrium((2e5, 0, 0)).plot(what="rings")
 
 
 def test_the_report_draws_with_the_public_figures():

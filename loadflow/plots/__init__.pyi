@@ -9,6 +9,7 @@ from .journal import pressure_around as pressure_around
 from .journal import stribeck as stribeck
 from .rolling import contact_pressure as contact_pressure
 from .rolling import element_forces as element_forces
+from .rolling import rings as rings
 from .style import figure as figure
 from .style import readable as readable
 from .style import to_png as to_png

@@ -57,6 +57,37 @@ def contact_pressure(angle: ArrayLike, pressure: ArrayLike, names: Sequence[str]
     return _polar(angle, np.asarray(pressure) / 1e6, names, 1, "contact pressure, MPa")
 
 
+def rings(angle: ArrayLike, displacement: ArrayLike, names: Sequence[str] = ()) -> Figure:
+    """Draw how far the raceways of rings are displaced outward, around the ring.
+
+    Parameters
+    ----------
+    angle : array_like (n,) or (groups, n)
+        Of the elements, rad.
+    displacement : array_like (groups, n)
+        Outward, m; inward is negative, and drawn inside of the circle of 0.
+    names : sequence of str, optional
+        Of the groups.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle = np.linspace(0, 2 * np.pi, 36, endpoint=False)
+    >>> axis = rings(angle, 1e-5 * np.cos([2 * angle])).axes[0]
+    >>> [round(float(end)) for end in axis.get_ylim()]
+    [-20, 12]
+    """
+    moved = 1e6 * np.atleast_2d(np.asarray(displacement, dtype=float))
+    drawing = _polar(angle, moved, names, 1, "displacement of the raceway outward, µm")
+    axis, size = drawing.axes[0], float(np.abs(moved).max(initial=0.0)) or 1.0
+    axis.set_ylim(-2.0 * size, 1.2 * size)  # room inside: what bends inward stays a ring
+    around = np.linspace(0, 2 * np.pi, 181)
+    axis.plot(around, np.zeros_like(around), color="0.6", lw=0.8, ls="--")
+    if len(moved) > 1:
+        axis.legend(loc="upper left", bbox_to_anchor=(1.1, 1.0))  # beside: a bent ring fills all
+    return drawing
+
+
 def _polar(
     angle: ArrayLike, values: np.ndarray, names: Sequence[str], rows: int, title: str
 ) -> Figure:

@@ -17,6 +17,7 @@ from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
 from loadflow.rolling.equilibrium import RingEquilibrium
 from loadflow.rolling.geometry import RollingGeometry
+from loadflow.rolling.rings.equilibrium import FlexibleRingForces
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -304,19 +305,37 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         peak = np.asarray(self.maximum_pressure)[..., None]
         return np.asarray(peak * share ** (1 / self.bearing.static_exponent))
 
-    def plot(self, case: int = 0, what: Literal["force", "pressure"] = "force") -> Figure:
-        """Draw the forces on the rolling elements, or the contact pressure, around the ring.
+    def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
+        """Displacement (r, θ, z) of a flexible ring's raceways, m, (…, groups, element, 3).
+
+        Raises
+        ------
+        InputError
+            If the ring is rigid.
+        """
+        if not isinstance(self.elements, FlexibleRingForces):
+            raise InputError(f"ring: the {ring} ring is rigid")
+        return self.elements.ring_displacement(ring)
+
+    def plot(self, case: int = 0, what: Literal["force", "pressure", "rings"] = "force") -> Figure:
+        """Draw forces on the rolling elements, contact pressure or the bent rings, around the ring.
 
         Parameters
         ----------
         case : int
             Number of the load case, in C order.
-        what : {"force", "pressure"}
-            Which; `element_pressure` is of bearings whose rows are alike.
+        what : {"force", "pressure", "rings"}
+            Which; `element_pressure` is of bearings whose rows are alike, and "rings" draws how far
+            the raceways of flexible rings are displaced outward.
 
         Returns
         -------
         matplotlib.figure.Figure
+
+        Raises
+        ------
+        InputError
+            Both rings are rigid.
 
         Examples
         --------
@@ -334,10 +353,29 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
             row = pressure.reshape(-1, pressure.shape[-1])[case]
             return plots.contact_pressure(self.element_azimuth[0], row)
         forces = self.element_forces
-        inner = forces.shape[len(self.cases) :]
-        groups = forces.reshape(-1, *inner)[case].reshape(-1, inner[-1])
+        groups = self._of_case(forces, case)
         names = [f"{' '.join(self.bearing.group_dims)} {k + 1}" for k in range(len(groups))]
+        if what == "rings":
+            bent = {ring: self._of_case(moved, case) for ring, moved in self._bent().items()}
+            named = [f"{ring} ring, {name}" for ring in bent for name in names]
+            around = np.tile(self.element_azimuth, (len(bent), 1))
+            return plots.rings(around, np.concatenate([*bent.values()]), named)
         return plots.element_forces(self.element_azimuth, groups, names)
+
+    def _of_case(self, values: Array, case: int) -> Array:
+        """Values (…, groups, element) of one load case, (group, element)."""
+        inner = values.shape[len(self.cases) :]
+        return np.asarray(values.reshape(-1, *inner)[case].reshape(-1, inner[-1]))
+
+    def _bent(self) -> dict[str, Array]:
+        """How far the raceways of flexible rings are displaced outward, m, by ring."""
+        found, rings = {}, ("inner", "outer")
+        for ring in rings:
+            if getattr(getattr(self.elements, "rings", None), ring, None) is not None:
+                found[ring] = self.ring_displacement(ring)[..., 0]
+        if not found:
+            raise InputError('plot: what = "rings": both rings are rigid')
+        return found
 
     def __repr__(self) -> str:
         what = f"{type(self.bearing).__name__}, {load_cases(int(np.prod(self.cases)))}"

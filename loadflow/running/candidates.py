@@ -119,8 +119,10 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
             share = min(1.0, SHAPED_CLASSES**2 / steps)
             fewer = {"size": share, "classes": SHAPED_CLASSES}
     if candidate.rolling is not None:
-        results += ["rolling.loads", "rolling.life"]
+        results += (rolling := ["rolling.loads", "rolling.life"])
         update["rolling"] = candidate.rolling
+        if isinstance(base.accuracy, dict):
+            update["accuracy"] = _as_near(base, rolling)
     if candidate.thrust is not None:
         results.append("thrust.film")
         update["thrust"] = candidate.thrust
@@ -133,6 +135,13 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     found = base.model_copy(update=update | {"results": results})
     found.model_fields_set.difference_update(others)
     return found
+
+
+def _as_near(base: Scene, results: list[str]) -> dict[Any, float]:
+    """Accuracy of a scene, and of some results no less than where nothing is said."""
+    usual = float(Scene.model_fields["accuracy"].default)
+    nearer = {result: min(usual, base.allowed(result)) for result in results}
+    return {str(name): value for name, value in base.accuracy.items()} | nearer  # type: ignore[union-attr]
 
 
 def _wears(base: Scene, journal: Journal) -> bool:

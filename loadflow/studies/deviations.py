@@ -194,7 +194,7 @@ def _with_viscosity(built: Built, share: float) -> Built:
         return {"lubricant": _thicker(one.lubricant, factor)}
 
     def pads(bearing: Any) -> Any:
-        return bearing.model_copy(update={"lubricant": _thicker(bearing.lubricant, factor)})
+        return bearing.with_viscosity(factor)
 
     alike = {"temperature": _as_viscous(built.friction, factor)}
     return _changed(built, journal=journal, pads=pads, friction=alike)
@@ -211,7 +211,11 @@ def _with_temperature(built: Built, kelvin: float) -> Built:
         return {"lubricant": _thicker(one.lubricant, factor)}
 
     def pads(bearing: Any) -> Any:
-        return bearing.model_copy(update={"lubricant": _thicker(bearing.lubricant, factor)})
+        heat = getattr(bearing, "heat", None)  # pairs of cones know none
+        if heat is None:
+            return bearing.with_viscosity(factor)
+        warm = heat.inlet_temperature + kelvin
+        return bearing.model_copy(update={"heat": replace(heat, inlet_temperature=warm)})
 
     warmer = {"temperature": built.friction.temperature + kelvin}
     return _changed(built, journal=journal, pads=pads, friction=warmer)

@@ -124,6 +124,24 @@ def test_a_film_with_heat_has_other_oil_and_another_inlet():
     assert first == pytest.approx(0.9 * hot.candidate.journal.heat.liquid.viscosities[0])
 
 
+def test_a_collar_with_heat_has_other_oil_and_another_inlet():
+    geometry = {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
+                "taper": 1e-4}  # fmt: skip
+    one = {"kind": "thrust", "geometry": geometry, "heat": {"oil": "mineral-vg-320"}}
+    hot = built(thrust={"bearings": {"N2": one}})
+    heat = hot.candidate.thrust.bearings["N2"].heat
+    grade, warm = only(hot, viscosity=0.1), only(hot, temperature=7.0)
+    thinner, warmer = (
+        end.candidate.thrust.bearings["N2"].heat for end in (grade.ends[0], warm.ends[1])
+    )
+    assert thinner.liquid.viscosities[0] == pytest.approx(0.9 * heat.liquid.viscosities[0])
+    assert warmer.inlet_temperature == heat.inlet_temperature + 7.0
+    films = [
+        cheap_numbers(some)["minimum_film"] for some in (grade.ends[0], warm.ends[1], grade.stated)
+    ]
+    assert max(films[:2]) < films[2]
+
+
 def test_the_margin_of_a_film_follows_its_power_of_the_load():
     """A pressure whose limit is twice as high: the loads may grow by 2 over its power."""
     low, high = (

@@ -171,6 +171,21 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     assert "by tolerances: " in page
 
 
+def test_rolling_bearings_are_asked_for_as_much_accuracy_as_where_nothing_is_said(cube):
+    loose = {"journal.film": 0.2, "rolling.loads": 0.25, "rolling.life": 0.01}
+    scene = scene_of(cube, accuracy=loose)
+    tapered, journal = (
+        candidate_scene(scene, name, scene.candidates[name], 200)
+        for name in ("double-row-tapered", "journal-cylindrical")
+    )
+    assert tapered.allowed("rolling.loads") == 0.05
+    assert tapered.allowed("rolling.life") == 0.01
+    assert journal.allowed("journal.film") == 0.2
+    given = scene_of(cube, accuracy="given")
+    one = candidate_scene(given, "two-spherical", given.candidates["two-spherical"], 200)
+    assert one.accuracy == "given"
+
+
 def test_what_no_ladder_knows_says_so_and_what_is_0_has_no_share():
     plain_zero = Number(0.0, "h", low=0.0, high=0.0)
     assert missing("mixed_time", plain_zero)["tolerances"].startswith("it is 0")

@@ -24,7 +24,7 @@ from loadflow.rolling.rating import modified_life
 from loadflow.rolling.rating.modified_life import LifeModification, Lubrication
 from loadflow.rolling.results import ContactResult
 from loadflow.rolling.rings.condensed import Coupling
-from loadflow.rolling.rings.equilibrium import FlexibleRingForces, solve_flexible
+from loadflow.rolling.rings.equilibrium import solve_flexible
 from loadflow.rolling.rings.flexible import FlexibleRings
 
 if TYPE_CHECKING:
@@ -70,18 +70,6 @@ class RollingEquilibrium(ContactResult[Kind]):
         if not isinstance(self.elements, Spin):
             raise AttributeError("spin: give `equilibrium` a speed")
         return self.elements
-
-    def ring_displacement(self, ring: Literal["inner", "outer"]) -> Array:
-        """Displacement (r, θ, z) of a flexible ring's raceways, m, (…, groups, element, 3).
-
-        Raises
-        ------
-        InputError
-            If the ring is rigid.
-        """
-        if not isinstance(self.elements, FlexibleRingForces):
-            raise InputError(f"ring: the {ring} ring is rigid")
-        return self.elements.ring_displacement(ring)
 
     def friction(self, speed: ArrayLike, options: FrictionOptions) -> BearingFriction:
         """Films and losses of every contact at a speed.
