@@ -149,7 +149,7 @@ def pilot(
     if not scene.asks:
         return None
     cases = tuple(list_cases(scene))
-    chosen = chosen_models(scene, cases).scene
+    chosen = chosen_models(scene, cases, solving=False).scene
     worth = list(_worth_measuring(scene, chosen, cases))
     effort = effort or effort_for(chosen, worth, cases)
     effects = [
@@ -214,7 +214,7 @@ def _worth_measuring(scene: Scene, chosen: Scene, cases: tuple[Case, ...]) -> It
     """Effects that can be switched, and whose indicator is not far below what is allowed."""
     stages = [name for name in STAGES if name in needed_stages(chosen)]
     least = min(scene.allowed(result) for result in scene.results)
-    known = estimates(chosen, stages, cases)
+    known = estimates(chosen, stages, cases, solving=False)
     for effect in concerned(chosen, stages):
         sizes = known.sizes(effect).values()
         matters = not sizes or max(sizes) > WORTH * least or effect.is_on(scene)
