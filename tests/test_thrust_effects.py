@@ -8,12 +8,13 @@ import pytest
 from loadflow.data import gains
 from loadflow.journal import Heat
 from loadflow.planning.ladder import STEPS_PER_CASE, expected_seconds, ladder
+from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects import thrust
 from loadflow.stages.effects.film import THREE_P
-from loadflow.stages.effects.situation import FEW, situation
+from loadflow.stages.effects.situation import FEW, Situation, situation
 
 DLC_1_1 = Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml"
 COLLAR = {
@@ -162,6 +163,27 @@ def test_motion_is_taken_where_more_accuracy_is_asked_for():
         update={"loads": standing.loads.model_copy(update={"dlc": "4.2"})}
     )
     assert thrust.MOTION.switched(standing, True) is None
+
+
+def test_a_pilot_asks_what_collars_lose_before_any_of_their_films_is_solved(monkeypatch):
+    """So their loops are compiled beside those of other models; the same effects are measured."""
+
+    class Asked(Exception):
+        pass
+
+    def questions(asked):
+        found.append(asked)
+        raise Asked
+
+    found = []
+    monkeypatch.setattr(Situation, "collars", property(lambda at: pytest.fail("films are solved")))
+    with pytest.raises(Asked):
+        pilot(read_scene(DLC_1_1), before=questions)
+    assert {name for name in found[0].effects if name.endswith("the collar")} == {
+        "motion of the collar", "heat of the collar", "tilt of the collar",
+    }  # fmt: skip
+    expected = make_plan(read_scene(DLC_1_1), solving=False)
+    assert not any(one.indicator for one in expected.effects if one.name.endswith("the collar"))
 
 
 def test_without_a_collar_there_is_nothing_to_leave_out():

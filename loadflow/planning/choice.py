@@ -219,7 +219,8 @@ class _Choosing:
         """All combinations, and their errors (n, answers); NaN where one is not measured.
 
         A link's share depends on one section. Where the links themselves depend on a section, as on
-        that of a film that moves, its alternatives are gone through one by one.
+        that of a film that moves, its alternatives are gone through one by one, and the others once
+        for each set of links.
         """
         stated = self.links(self.scene)
         forking = {
@@ -229,18 +230,15 @@ class _Choosing:
         }
         others = {name: found for name, found in alternatives.items() if name not in forking}
         combined, errors = [], []
+        known: list[tuple[Any, Floats]] = []  # links, and what the others bring to them
         for fork in product(*forking.values()):
             fixed = dict(zip(forking, fork))
             scene = self.with_sections(fixed)
             links = self.links(scene)
-            table = np.zeros((1, len(links)))
-            for name, found in others.items():
-                own = [
-                    self._shares(self.with_sections(fixed | {name: one}), links, name, tuple(fixed))
-                    for one in found
-                ]
-                # the number of rows is said: results without links have no columns to find it by
-                table = (table[:, None] + own).reshape(len(table) * len(own), len(links))
+            table = next((found for one, found in known if one == links), None)
+            if table is None:
+                table = self._table(fixed, links, others)
+                known.append((links, table))
             held = {*forking, *({rungs.section for rungs in models().values()} - {*others})}
             for name in held:
                 table = table + self._shares(scene, links, name, tuple(fixed))
@@ -249,6 +247,23 @@ class _Choosing:
                 whole = fixed | dict(zip(others, rest))
                 combined.append(tuple(whole[name] for name in alternatives))
         return combined, np.concatenate(errors)
+
+    def _table(
+        self,
+        fixed: dict[str, Any],
+        links: dict[tuple[str, str], tuple[Link, ...]],
+        others: dict[str, list[Any]],
+    ) -> Floats:
+        """What combinations of sections bring, (n, answers), the others being those of `fixed`."""
+        table = np.zeros((1, len(links)))
+        for name, found in others.items():
+            own = [
+                self._shares(self.with_sections(fixed | {name: one}), links, name, tuple(fixed))
+                for one in found
+            ]
+            # the number of rows is said: results without links have no columns to find it by
+            table = (table[:, None] + own).reshape(len(table) * len(own), len(links))
+        return table
 
     def _shares(
         self,

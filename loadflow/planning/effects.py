@@ -93,6 +93,7 @@ def estimates(
     stages: Iterable[str],
     cases: tuple[Case, ...],
     verdict: EffectVerdict | None = None,
+    solving: bool = True,
 ) -> Estimates:
     """Return the indicators of all effects of the stages, and what a pilot measured.
 
@@ -106,12 +107,15 @@ def estimates(
         Load cases.
     verdict : EffectVerdict, optional
         Of a pilot of this scene.
+    solving : bool
+        Whether films are solved for indicators that need them; else these are not there.
     """
     effects = concerned(scene, stages)
     if not effects or not cases:
         return Estimates({}, verdict)
     at = situation(scene, cases)
-    return Estimates({effect.name: effect.indicator(at) for effect in effects}, verdict)
+    asked = (effect for effect in effects if solving or not effect.solves)
+    return Estimates({effect.name: effect.indicator(at) for effect in asked}, verdict)
 
 
 def concerned(scene: Scene, stages: Iterable[str]) -> list[Effect]:

@@ -156,10 +156,13 @@ def pilot(
     if not scene.asks:
         return None
     cases = tuple(list_cases(scene))
-    chosen = chosen_models(scene, cases).scene
-    known = estimates(chosen, _stages(chosen), cases)
+    chosen, known = _expected(scene, cases, solving=False)
     worth = list(_worth_measuring(scene, chosen, known))
     effort = effort or effort_for(chosen, worth, cases)
+    brief = brief and not effort.thorough
+    if brief:  # indicators that solve films cost less than what they may settle
+        chosen, known = _expected(scene, cases, solving=True)
+        worth = list(_worth_measuring(scene, chosen, known))
     if not effort.thorough:
         worth = [
             one
@@ -169,7 +172,7 @@ def pilot(
             and not surely_small(chosen, one, _stages(chosen), cases)
         ]
     effects, settled = tuple(one.name for one in worth), tuple[str, ...]()
-    if brief and not effort.thorough:
+    if brief:
         effects, settled = _to_decide(scene, chosen, known, worth, cases)
     if not effects:
         return None
@@ -221,6 +224,12 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
         if effort.cases * ((1 + simulated) * each + SOLVED) <= SHARE * run:
             return effort
     return EFFORTS[-1]
+
+
+def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Scene, Estimates]:
+    """Models that a run would have without a pilot, and what the indicators say of their effects."""
+    chosen = chosen_models(scene, cases, solving=solving).scene
+    return chosen, estimates(chosen, _stages(chosen), cases, solving=solving)
 
 
 def _stages(scene: Scene) -> list[str]:

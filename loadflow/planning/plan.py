@@ -121,7 +121,10 @@ class Plan:
 
 
 def make_plan(
-    scene: Scene, refined: Iterable[str] = (), verdict: EffectVerdict | None = None
+    scene: Scene,
+    refined: Iterable[str] = (),
+    verdict: EffectVerdict | None = None,
+    solving: bool = True,
 ) -> Plan:
     """Choose the stages that the wanted results need, and their models.
 
@@ -133,6 +136,9 @@ def make_plan(
         Models and effects that were found too coarse or missing, once for each better one to take.
     verdict : EffectVerdict, optional
         What a pilot of this scene measured; without it the indicators of the effects count.
+    solving : bool
+        Whether films are solved for indicators that need them; without, these effects count for
+        nothing: what is expected before a pilot measures them.
 
     Returns
     -------
@@ -145,7 +151,7 @@ def make_plan(
         The scene's load files do not exist or cannot be told apart.
     """
     cases = tuple(list_cases(scene))
-    choice = chosen_models(scene, cases, refined, verdict)
+    choice = chosen_models(scene, cases, refined, verdict, solving)
     needed = needed_stages(choice.scene)
     steps: dict[str, Step] = {}
     for name, stage in STAGES.items():
@@ -173,10 +179,11 @@ def chosen_models(
     cases: tuple[Case, ...],
     refined: Iterable[str] = (),
     verdict: EffectVerdict | None = None,
+    solving: bool = True,
 ) -> Choice:
     """Return the models of a plan, the rest of it aside."""
     stages = needed_stages(scene)
-    known = estimates(scene, _in_order(stages), cases, verdict)
+    known = estimates(scene, _in_order(stages), cases, verdict, solving)
     return refine(choose(scene, _in_order(stages), cases, known), refined)
 
 

@@ -199,10 +199,12 @@ def _run(
     refined = refinements(folder, scene)
     compiled = 0.0
 
+    expected = partial(make_plan, scene, refined, solving=False)
+
     def compiles(questions: Questions) -> None:
         nonlocal compiled
         started = time.perf_counter()
-        compile_for_pilot(questions, partial(make_plan, scene, refined), where, say, folder)
+        compile_for_pilot(questions, expected, where, say, folder)
         compiled = time.perf_counter() - started
 
     begun = time.perf_counter()

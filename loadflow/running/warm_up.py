@@ -65,7 +65,7 @@ SECONDS = {
     "journal": 36.0,
     "loads": 22.0,
     "rolling": 20.0,
-    "thrust": 15.0,
+    "thrust": 16.0,
     f"journal{SIMPLER}": 10.0,
     "shaft": 1.0,
 }

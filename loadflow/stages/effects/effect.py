@@ -51,6 +51,9 @@ class Effect:
         Those of `rungs` that know a part of it alone, and which; scenes refuse the rest by name.
     own_kernels : bool
         Whether its model has compiled loops for it, and others for when it is out.
+    solves : bool
+        Whether its indicator solves films, which asks for their compiled loops: a pilot, which
+        measures the effect, does without it.
     muted : callable
         Scene with the effect on → what makes series that its probe reads into such in which it has
         no size: so a pilot asks what leaving it out changes on loops that are compiled anyway. None
@@ -72,6 +75,7 @@ class Effect:
     rungs: tuple[str, ...] = ()
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
+    solves: bool = False
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
     doubt: float = 4.0
 

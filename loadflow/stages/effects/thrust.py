@@ -106,6 +106,7 @@ MOTION = Effect(
     out='thrust.motion = "quasi-static": films of pads are solved at rest',
     needs='thrust.motion = "transient", of a shaft that never stands',
     concerns=_has_collars,
+    solves=True,
     rungs=("curve",),
     cost=cost_of("motion"),
 )
@@ -181,6 +182,7 @@ HEAT = Effect(
     out="no heat of a thrust bearing: its films have one viscosity, that of the oil as stated",
     needs="a table heat of the thrust bearing with the oil and the temperature at which it enters",
     concerns=_has_collars,
+    solves=True,
     cost=cost_of("heat"),
     doubt=DOUBT,
 )
@@ -216,6 +218,7 @@ TILT = Effect(
     out="no thrust.tilt: pads are aligned with the collar, however the shaft bends",
     needs="thrust.tilt = true, with a beam as the shaft; pads that follow it lose less",
     concerns=_has_collars,
+    solves=True,
     cost=cost_of("tilt"),
     doubt=DOUBT,
 )
@@ -239,4 +242,5 @@ CONTACT = Effect(
     out="films of pads alone carry; asperities would take load below a film parameter of 4",
     needs="films of pads with asperities, which scenes do not have",
     concerns=_has_collars,
+    solves=True,
 )
