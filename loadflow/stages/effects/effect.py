@@ -15,6 +15,9 @@ Series = Mapping[str, Any]
 Sizes = Mapping[str, float]
 """By quantity, the share by which an answer changes if the effect is left out."""
 
+UNSURE = 2.0
+"""Indicators are good to about this factor."""
+
 
 @dataclass(frozen=True)
 class Effect:
@@ -36,6 +39,8 @@ class Effect:
         Scene, on → the scene with the effect in or out; None where the scene lacks the data.
     indicator : callable
         Situation → its `Sizes` by closed forms, calibrated as its docstring says.
+    doubt : callable
+        Scene → the effect over its indicator, at most: 1 where that is a bound.
     out : str
         What is left out, and why, for the plan.
     needs : str
@@ -70,6 +75,7 @@ class Effect:
     rungs: tuple[str, ...] = ()
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
+    doubt: Callable[[Scene], float] = lambda scene: UNSURE
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
 
     @property
