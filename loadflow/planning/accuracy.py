@@ -52,17 +52,13 @@ def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
     }
 
 
-UNSURE = 2.0
-"""Indicators are good to about this factor."""
-
-
 def surely_small(
     scene: Scene, effect: Effect, stages: Iterable[str], cases: tuple[Case, ...]
 ) -> bool:
     """Return whether an effect is out for certain: its indicator leaves no doubt.
 
     Without it all that it moves holds the accuracy asked for, with all else that reaches these
-    answers, even if it were `UNSURE` times as large as its indicator says. Then nothing need be
+    answers, even if it is `larger` than its indicator by as much as it may be. Then nothing need be
     measured, the kernels of the effect among it.
 
     Parameters
@@ -80,7 +76,8 @@ def surely_small(
         return False
     known = estimates(scene, stages, cases)
     indicator = known.indicators.get(effect.name, {})
-    larger = {name: UNSURE * size for name, size in indicator.items()}
+    by = effect.larger(scene)
+    larger = {name: by * size for name, size in indicator.items()}
     doubtful = replace(known, indicators={**known.indicators, effect.name: larger})
     moved = [
         (result, error)

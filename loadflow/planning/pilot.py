@@ -227,7 +227,7 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
 
 
 def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Scene, Estimates]:
-    """Models that a run would have without a pilot, and what the indicators say of their effects."""
+    """Models that a run has without a pilot, and what indicators say of their effects."""
     chosen = chosen_models(scene, cases, solving=solving).scene
     return chosen, estimates(chosen, _stages(chosen), cases, solving=solving)
 
@@ -273,7 +273,7 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
     if not effect.is_on(chosen) or without is None:
         return False
     return any(
-        part.effect is effect and (part.share or 0.0) > effect.doubt * scene.allowed(result)
+        part.effect is effect and (part.share or 0.0) > effect.smaller * scene.allowed(result)
         for result in scene.results
         for name, links in giving(result).results[result](without).items()
         for part in contributions(without, result, name, links, known)

@@ -188,8 +188,8 @@ class _Processes:
 
 
 def _read_modules(_: int) -> None:
-    """What a load case and its kernels need; a process that has it reads nothing again."""
-    import loadflow.running.warm_up  # noqa: F401
+    """What a load case needs; a process that has it reads nothing again."""
+    import loadflow.running.cases  # noqa: F401
 
 
 def _ignore_errors_of(thread: Thread | None) -> None:

@@ -15,6 +15,9 @@ Series = Mapping[str, Any]
 Sizes = Mapping[str, float]
 """By quantity, the share by which an answer changes if the effect is left out."""
 
+UNSURE = 2.0
+"""Indicators are good to about this factor."""
+
 
 @dataclass(frozen=True)
 class Effect:
@@ -36,6 +39,10 @@ class Effect:
         Scene, on → the scene with the effect in or out; None where the scene lacks the data.
     indicator : callable
         Situation → its `Sizes` by closed forms, calibrated as its docstring says.
+    larger : callable
+        Scene → the effect over its indicator, at most: 1 where that is a bound.
+    smaller : float
+        The indicator over the effect, at most.
     out : str
         What is left out, and why, for the plan.
     needs : str
@@ -58,8 +65,6 @@ class Effect:
         Scene with the effect on → what makes series that its probe reads into such in which it has
         no size: so a pilot asks what leaving it out changes on loops that are compiled anyway. None
         where the scene without it is asked.
-    doubt : float
-        Factor by which the indicator may be off.
     """
 
     name: str
@@ -76,8 +81,9 @@ class Effect:
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
     solves: bool = False
+    larger: Callable[[Scene], float] = lambda scene: UNSURE
+    smaller: float = 4.0
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
-    doubt: float = 4.0
 
     @property
     def section(self) -> str:

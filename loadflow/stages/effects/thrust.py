@@ -32,7 +32,7 @@ COSTS = {
 steps on a table, which the ladder counts once, and of one sample on the grid. Measured by ``python
 -m benchmarks.references.collar_costs``; docs/thrust.md."""
 
-DOUBT = 2.0
+SMALLER = 2.0
 """Factor by which indicators of collars may be off: of the largest pressure; docs/accuracy.md."""
 
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
@@ -184,7 +184,7 @@ HEAT = Effect(
     concerns=_has_collars,
     solves=True,
     cost=cost_of("heat"),
-    doubt=DOUBT,
+    smaller=SMALLER,
 )
 
 
@@ -220,7 +220,7 @@ TILT = Effect(
     concerns=_has_collars,
     solves=True,
     cost=cost_of("tilt"),
-    doubt=DOUBT,
+    smaller=SMALLER,
 )
 
 
