@@ -94,3 +94,4 @@ def test_the_page_of_physics_has_the_numbers_that_are_kept_beside_it():
     page = physics.PAGE.read_text(encoding="utf-8")
     assert physics.size_table(physics.joined(kept)) in page
     assert physics.scene_table(kept["scenes"]) in page
+    assert physics.run_table(kept["runs"]) in physics.DOC.read_text(encoding="utf-8")
