@@ -91,6 +91,8 @@ def test_a_part_of_the_page_of_physics_that_was_killed_goes_on_where_it_was(tmp_
 
 def test_the_page_of_physics_has_the_numbers_that_are_kept_beside_it():
     kept = physics.kept_so_far()
+    assert set(kept) == set(physics.PARTS)
     page = physics.PAGE.read_text(encoding="utf-8")
     assert physics.size_table(physics.joined(kept)) in page
     assert physics.scene_table(kept["scenes"]) in page
+    assert physics.run_table(kept["runs"]) in physics.DOC.read_text(encoding="utf-8")

@@ -124,8 +124,9 @@ differences from the answers of the best run: damage of N's vertical force, mean
 cases; thinnest film of the collar and of N and N2; largest ε of both; mean friction; largest force
 of a roller; life of M. All have the same winds, on 11 × 144 points as the plan of the main job
 takes them, as a seed on another grid is another wind: what a finer grid changes is a row of
-[physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. Written by
-`python -m benchmarks.ladder.physics runs`."""
+[physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. The machine
+had six times as much to do as it has cores, and took half as long again as README says; ratios
+count. Written by `python -m benchmarks.ladder.physics runs`."""
 
 
 def measured(part: str) -> list[dict[str, Any]]:

@@ -62,9 +62,6 @@ def whole_runs() -> dict[str, Scene]:
         BEST: made(0.005),
         DEFAULT: made(),
         "accuracy = 0.2": made(0.2),
-        "film at rest, cold, aligned": made("given", film=COLD | {"grid": [40, 12]}),
-        "accuracy = 0.02": made(0.02),
-        "accuracy = 0.1": made(0.1),
     }
 
 
