@@ -97,7 +97,8 @@ class ShellContact(YieldingNodeLoad):
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), where the shell was settled."""
         touch = super().at(position)
-        touch.stiffness[:] += np.einsum("mxz,nxz->mn", self.by_growth(position), self.by_place)
+        if self._touching.size:  # else the shell has no growth by asperities to follow
+            touch.stiffness[:] += np.einsum("mxz,nxz->mn", self.by_growth(position), self.by_place)
         return touch
 
     # --- inside ----------------------------------------------------------------------------------
