@@ -121,5 +121,10 @@ def test_what_fed_segments_do_not_hold_is_refused_by_name():
         LEMON.equilibrium(LOAD, SPEED, over)
     on_a_pad = Groove(np.pi / 2, arc=0.3, length=0.05, pressure=2e5)
     padded = JournalBearing(**SIZE, shape=TiltingPads(4, 1.2))
-    with pytest.raises(InputError, match=r'shape = .* without pads .* on rung = "reduced"'):
-        padded.equilibrium(LOAD, SPEED, replace(REDUCED, supply=Supply((on_a_pad,))))
+    fed, time = replace(REDUCED, supply=Supply((on_a_pad,))), np.linspace(0.0, 0.01, 3)
+    with pytest.raises(InputError, match=r'shape = .* without pads .* in motion on rung = "red'):
+        padded.orbit(time, np.tile(LOAD, (3, 1)), SPEED, fed)
+    few, fine = (
+        padded.equilibrium(LOAD, SPEED, replace(fed, rung=rung)) for rung in ("reduced", "grid")
+    )
+    assert few.minimum_film == fine.minimum_film  # at rest pads are of the grid

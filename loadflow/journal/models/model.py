@@ -189,7 +189,7 @@ def _pairs(
         at_ends = 'that of the bearing ends on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
     if film.rung == "reduced" and film.supply is not None:
-        yield from _beside_grooves(film, bearing)
+        yield from _beside_grooves(verb, film, bearing)
     over_area = film.heat is not None and film.heat.over_area
     of_pads = film.heat is not None and film.heat.of_pads
     yield "heat", film.heat, of_pads, "a Heat or FilmHeat: a PadHeat is of thrust bearings"
@@ -229,7 +229,9 @@ def _on_strips(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any,
     yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
 
 
-def _beside_grooves(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
+def _beside_grooves(
+    verb: Verb, film: Film, bearing: JournalGeometry
+) -> Iterator[tuple[str, Any, bool, str]]:
     """What does not go with grooves on few points across the width; as `_pairs`."""
     supply, on_few = film.supply, 'on rung = "reduced"'
     assert supply is not None
@@ -242,7 +244,8 @@ def _beside_grooves(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str,
         apart, within = not on_one_segment(groove, segments, *cells), "that of a groove within one"
         yield f"{name}.angle", groove.angle, apart, f"{within} segment of the bore {on_few}"
     beside = f"none beside a supply {on_few}"
-    yield "shape", bearing.shape, bearing.has_pads, f"one without pads beside a supply {on_few}"
+    moving = bearing.has_pads and verb == "in_motion"  # at rest they are of the grid
+    yield "shape", bearing.shape, moving, f"one without pads beside a supply in motion {on_few}"
     yield "shell", film.shell, True, beside
 
 

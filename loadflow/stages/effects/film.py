@@ -324,7 +324,7 @@ SUPPLY = Effect(
     partly=(
         (
             "reduced",
-            "rectangular ones of given pressure, each on one segment, beside no pads or shell",
+            "rectangular ones of given pressure, each on one segment, no moving pads or shell",
         ),
     ),
 )

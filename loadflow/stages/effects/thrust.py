@@ -33,7 +33,7 @@ steps on a table, which the ladder counts once, and of one sample on the grid. M
 -m benchmarks.references.collar_costs``; docs/thrust.md."""
 
 SMALLER = 2.0
-"""Factor by which indicators of collars may be off: of the largest pressure; docs/accuracy.md."""
+"""Indicators of collars over their effects, at most: of the largest pressure; docs/accuracy.md."""
 
 _QUANTITIES = ("minimum film", "maximum pressure", "friction power")
 
