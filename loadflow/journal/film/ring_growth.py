@@ -22,7 +22,11 @@ from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
-_OPEN = math.pi / 4  # largest part of the ring, rad, along which there may be no film
+OPEN = math.pi / 4
+"""Largest part of the ring, rad, along which there may be no film."""
+
+RUNS_ROUND = "None but where a film runs round, which warms the ring"
+"""Growth that is allowed elsewhere."""
 
 
 class _Motion(NamedTuple):
@@ -193,7 +197,7 @@ class RingExpansion:
         diameter, bore = growth.outer_diameter, 2 * radius
         require(diameter > bore, "growth.outer_diameter", diameter, f"m, above the bore's {bore:g}")
         without = 2 * math.pi - float(mesh.dx.sum())
-        require_round(growth, without)
+        require(without < OPEN, "growth", growth, RUNS_ROUND)
         outer, biot = diameter / bore, _biot(heat, growth, radius)
         shape = growth.held, growth.poisson_ratio
         self._even = ring_factor(0, outer, 0.0, *shape)
@@ -221,18 +225,6 @@ class RingExpansion:
         bore = self._even * (back - cold) + self._matrix @ (shell - back)
         turning = growth.shaft_expansion * (shaft - cold)
         return np.asarray(self.radius * (growth.shell_expansion * bore - turning))
-
-
-def require_round(growth: RingGrowth, without: float) -> None:
-    """Refuse the growth of a ring that has no film along `without`, rad, in one piece.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        More than an eighth of the ring.
-    """
-    words = "None but where a film runs round, which warms the ring"
-    require(without < _OPEN, "growth", growth, words)
 
 
 def _biot(heat: FilmHeat, growth: RingGrowth, radius: float) -> float:

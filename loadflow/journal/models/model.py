@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.film.grooves import on_one_segment
+from loadflow.journal.film.ring_growth import OPEN, RUNS_ROUND
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rungs import FEATURES, RUNGS, Rung
+from loadflow.journal.shapes import Shape
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -209,6 +211,7 @@ def _pairs(
     one = "None on a map, which has one clearance"
     yield "heat.growth", growth, growth is not None and film.rung == "map", one
     yield "heat.growth", growth, pads and over_area, "None for pads, whose backs are not held"
+    yield "heat.growth", growth, over_area and _ends(bearing.shape), RUNS_ROUND
     settled = getattr(film.heat, "stiffness", "") == "settled"
     yield "heat.stiffness", "settled", settled and pads, '"frozen" for pads that tilt'
     yield "shell", film.shell, pads, "None for pads, whose backs are not held"
@@ -219,6 +222,13 @@ def _pairs(
     yield "turbulence", film.turbulence, over_area, "None with heat over the area"
     allowed = 'None with heat that is stored, but on rung = "reduced"'
     yield "turbulence", film.turbulence, stored and film.rung != "reduced", allowed
+
+
+def _ends(shape: Shape) -> bool:
+    """Whether there is no film along so much of a bore that its ring is not as warm as that."""
+    if shape.grooves_between or not shape.segments:
+        return False
+    return 2 * np.pi - (shape.segments[-1].end - shape.segments[0].start) >= OPEN
 
 
 def _on_strips(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
