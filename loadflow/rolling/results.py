@@ -369,7 +369,8 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
 
     def _bent(self) -> dict[str, Array]:
         """How far the raceways of flexible rings are displaced outward, m, by ring."""
-        found, rings = {}, ("inner", "outer")
+        found: dict[str, Array] = {}
+        rings: tuple[Literal["inner", "outer"], ...] = ("inner", "outer")
         for ring in rings:
             if getattr(getattr(self.elements, "rings", None), ring, None) is not None:
                 found[ring] = self.ring_displacement(ring)[..., 0]
