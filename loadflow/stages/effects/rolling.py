@@ -111,7 +111,8 @@ def _is_firm(part: FurtherBearing) -> bool:
     rows = (bearing.rows - 1) * bearing.row_spacing
     rows += bearing.roller_length * np.cos(bearing.nominal_angle)
     return all(
-        bool(ring.supports)
+        isinstance(ring, RingBeam)
+        and bool(ring.supports)
         and ring.section is not None
         and np.sqrt(12 * ring.section.inertia_radial / ring.section.area) >= rows
         for ring in (part.inner_ring, part.outer_ring)
