@@ -53,7 +53,12 @@ def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
 
 
 def surely_small(
-    scene: Scene, effect: Effect, stages: Iterable[str], cases: tuple[Case, ...]
+    scene: Scene,
+    effect: Effect,
+    stages: Iterable[str],
+    cases: tuple[Case, ...],
+    *,
+    alone: bool = False,
 ) -> bool:
     """Return whether an effect is out for certain: its indicator leaves no doubt.
 
@@ -71,6 +76,8 @@ def surely_small(
         Stages that run.
     cases : tuple of Case
         Load cases.
+    alone : bool
+        Whether other effects that are out are not counted: a check looks at one at a time.
     """
     if not scene.asks or effect.is_on(scene):
         return False
@@ -78,7 +85,8 @@ def surely_small(
     indicator = known.indicators.get(effect.name, {})
     by = effect.larger(scene)
     larger = {name: by * size for name, size in indicator.items()}
-    doubtful = replace(known, indicators={**known.indicators, effect.name: larger})
+    others = {} if alone else known.indicators
+    doubtful = replace(known, indicators={**others, effect.name: larger})
     moved = [
         (result, error)
         for result, found in expected_errors(scene, doubtful).items()

@@ -100,7 +100,7 @@ def _sure(scene: Scene, case: Case, parts: Mapping[str, Any]) -> list[str]:
     """Effects that are out for certain, and are not solved again for what they may change."""
     stages = [name for name in STAGES if name in parts]
     able = (one for one in COMPARED.values() if switched(scene, one, True) is not None)
-    return [one.name for one in able if surely_small(scene, one, stages, (case,))]
+    return [one.name for one in able if surely_small(scene, one, stages, (case,), alone=True)]
 
 
 def _allowed(scene: Scene, row: Difference) -> float:

@@ -96,20 +96,21 @@ def _rings(at: Situation) -> Sizes:
 
 
 def _rings_at_most(scene: Scene) -> float:
-    """1 where the rings of all rollers lie under their rows and are held at a face: a bound.
+    """1 where all rings lie under two rows of tapered rollers and are held at a face: a bound.
 
     The indicator is that of free rings. Walls took it from 21 % of the largest force to 13 % and
-    less, and from 28 % of the life to 5 %; short rings, which tilt, lost more (docs/rolling.md).
+    less, and from 28 % of the life to 5 %; short rings, which tilt, lost more, and so did spherical
+    rollers (docs/rolling.md).
     """
     return 1.0 if all(map(_is_firm, scene.rolling.bearings.values())) else UNSURE
 
 
 def _is_firm(part: FurtherBearing) -> bool:
     bearing: Any = part.geometry
-    if bearing.friction_model != "rollers" or not (part.inner_ring and part.outer_ring):
+    tapered = bearing.kind == "roller" and bearing.rows == 2
+    if not (tapered and part.inner_ring and part.outer_ring):
         return False
-    rows = (bearing.rows - 1) * bearing.row_spacing
-    rows += bearing.roller_length * np.cos(bearing.nominal_angle)
+    rows = bearing.row_spacing + bearing.roller_length * np.cos(bearing.nominal_angle)
     return all(
         isinstance(ring, RingBeam)
         and bool(ring.supports)
