@@ -54,6 +54,7 @@ STEP_BEFORE = 4  # of the `past` of a state: the step to its last time, s; 0 at 
 _BEGUN = (0.0, 0.0, np.inf)  # steps of the past of a first state
 _NO_SLOPES = np.zeros((2, 0, 0))
 _STRETCH = 24  # samples that take more points together
+_TRIES = 3  # of a first film, each from where the last one left the shaft
 _LONG = 240  # samples that go on together with few; calls of fewer cost
 
 
@@ -168,9 +169,12 @@ class March:
             found = self._creeps(level, place, most)
         if not found and self.start is None:
             place[:] = begin()
-            work.u[:] = model.cold()
-            for moving in (0, size):  # the film first
-                found = self.solve(level, place, moving, 0, 1, most)
+            for _ in range(_TRIES):  # a film that has run away may leave its shaft near the answer
+                work.u[:] = model.cold()
+                for moving in (0, size):  # the film first
+                    found = self.solve(level, place, moving, 0, 1, most)
+                if found or not np.isfinite(place).all():
+                    break
         bend = self.lines[0, 2:]
         return _first(level, work.u, place, bend) if found else None
 

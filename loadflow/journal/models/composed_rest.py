@@ -223,7 +223,12 @@ class _Loads:
         if last is not None and near:
             yield self._after(n, last, rows)
         work.u[:] = model.cold()
-        yield Start(places[n].copy(), first=True)
+        place = places[n].copy()
+        yield Start(place, first=True)
+        if model.film.held.on and np.isfinite(place).all():
+            work.u[:] = model.cold()  # a film that has run away may leave its shaft near the answer
+            row = self.solve(place, n, size=0)
+            yield Start(place, spent=int(row[at.ITERATIONS]))
         if last is not None and model.film.give > 0.0 and not near:
             yield self._after(n, last, rows)
         spent = (yield from self._creeping(n)) if model.film.give > 0.0 else 0
