@@ -44,7 +44,7 @@ from loadflow.journal.models.composed_model import (
     levels_at_rest,
     warn_unresolved,
 )
-from loadflow.journal.models.composed_rest import RestingFilms, films_at_rest
+from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.strips import made_in_film, passed_on, shares_of, strip_edges
@@ -245,6 +245,7 @@ class _Around:
         levels = levels_at_rest(self.options)
         self.levels = levels[1:] or levels  # beside grooves there is one
         given = self.bearing, self.options, self.speed, self.line, self.levels[0]
+        self.known = dict[int, Known]()  # films of loads at temperatures tried before
         self.heat = cast("FilmHeat", options.heat)
         self.equation = StripFilm(build(*given, at_rest=True), self.heat)
 
@@ -258,10 +259,14 @@ class _Around:
             )
         films = films_at_rest(
             self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
-            self.limits, level, viscosity=equation.viscosity,
+            self.limits, level, self.known.get(n), viscosity=equation.viscosity,
         )  # fmt: skip
         if not films.found[0]:
+            self.known.pop(n, None)
             return films, None
+        at, tilt = films.answer["eccentricity"][0], films.answer["tilt"][0] * self.bearing.radius
+        place = np.append(at, tilt) / clearance
+        self.known[n] = Known({0: (films.model.work.last.copy(), place)}, films.model)
         rubbed = float(films.answer["contact_power"][0]) if self.options.contact else 0.0
         return films, equation.made(films.model, float(self.speed[n]), rubbed)
 
