@@ -39,6 +39,7 @@ from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the
 from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
+from loadflow.scene.shaft_place import left_in_clearances
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
@@ -264,11 +265,13 @@ class Scene(Section, WithFittingBeams, BaseModel):
     def taken(self) -> list[str]:
         """What neither scene nor turbine state, and what is taken instead."""
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
-        name = self.turbine.name
         films = self.journal if self.wants("journal") else None
         rolling = self.rolling if self.wants("rolling") else None
-        beams = fitted(shaft, films, self._open_beams) if films is not None else ()
-        return [*taken(name, shaft), *beams, *usual_bearings(name, films, rolling)]
+        lines, name = taken(self.turbine.name, shaft), self.turbine.name
+        if films is not None:
+            beams = fitted(shaft, films, self._open_beams)
+            lines += [*beams, *left_in_clearances(self.shaft, films)]
+        return [*lines, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:
         """Whether a result of `room` is wanted."""
