@@ -107,7 +107,12 @@ def test_a_plan_takes_the_curve_and_counts_its_error(tmp_path):
     chosen = choose(scene, ["loads", "shaft", "thrust"], tuple(list_cases(scene)))
     assert chosen.scene.thrust.rung == "curve"
     assert 0 < chosen.errors["thrust.film"]["minimum film"] < 0.2
-    assert finer(chosen.scene, "thrust").thrust.rung == "grid"
+    better = finer(chosen.scene, "thrust").thrust
+    assert (better.rung, better.motion) == ("curve", "transient")
+    assert better.grid > chosen.scene.thrust.grid
+    still = chosen.scene.thrust.model_copy(update={"motion": "quasi-static"})
+    resting = chosen.scene.model_copy(update={"thrust": still})
+    assert finer(resting, "thrust").thrust.rung == "grid"
 
 
 BENT = {"two_point": {"beam": {"sections": [{"outer_diameter": 1.4, "inner_diameter": 0.7}]}}}

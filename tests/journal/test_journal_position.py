@@ -85,7 +85,7 @@ def test_the_film_at_the_position_of_an_equilibrium_carries_its_load(law):
             continue
         assert float(field.maximum_pressure) == pytest.approx(float(state.maximum_pressure))
         asked += 1
-    assert asked >= 9
+    assert asked >= 8
     assert verges <= LAWS[law][0].smooth  # of one draw; no other law changes its cells
 
 

@@ -22,7 +22,7 @@ from loadflow.journal import (
     Sommerfeld,
     TiltingPads,
 )
-from loadflow.journal.models import composed_model
+from loadflow.journal.models import composed_path
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 3.0, "width": 2.25, "relative_clearance": 0.5e-3}
@@ -194,7 +194,7 @@ def test_a_closed_orbit_is_of_second_order_in_its_steps():
 def test_points_across_are_added_until_they_resolve_the_whole_orbit(monkeypatch):
     tilt = {"tilt": (0.0, 0.62 * UNIT)}
     path = closed(REDUCED, **tilt)
-    monkeypatch.setattr(composed_model, "LEVELS", composed_model.LEVELS[1:])
+    monkeypatch.setattr(composed_path, "LEVELS", composed_path.LEVELS[1:])
     fine = closed(REDUCED, **tilt)
     np.testing.assert_allclose(extremes(path), extremes(fine), rtol=1e-5)
     assert path.attrs["periods"] > fine.attrs["periods"]

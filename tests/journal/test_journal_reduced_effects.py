@@ -387,7 +387,7 @@ def test_moments_of_little_load_on_a_path_ask_for_no_more_points(monkeypatch):
     line = {"tilt": np.tile(0.4 * UNIT, (241, 2))}
     few = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0]
-    monkeypatch.setattr(composed_model, "LEVELS", composed_model.LEVELS[1:])
+    monkeypatch.setattr(composed_path, "LEVELS", composed_model.LEVELS[1:])
     fine = BEARING.orbit(time, load, SPEED, REDUCED, **line)
     assert levels == [0, 1]
     assert float(few.minimum_film.min()) == pytest.approx(float(fine.minimum_film.min()), rel=5e-4)
@@ -420,9 +420,9 @@ def test_more_points_across_go_on_from_the_film_so_far(monkeypatch):
     assert samples[0] == set(range(1, 601))
     assert 0 < len(samples[1]) < 150
     assert all(9.0 < time[n] < 15.0 for n in samples[1])
-    monkeypatch.setattr(composed_model, "LEVELS", levels[1:])
+    monkeypatch.setattr(composed_path, "LEVELS", levels[1:])
     fine = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
-    monkeypatch.setattr(composed_model, "LEVELS", levels[:1])
+    monkeypatch.setattr(composed_path, "LEVELS", levels[:1])
     with pytest.warns(ValidityWarning, match="not resolved at .* first at t = 11"):
         coarse = BEARING.orbit(time, load, SPEED, REDUCED, tilt=tilt)
     for name in ANSWERS:
@@ -464,7 +464,7 @@ def test_a_path_that_rubs_stays_with_more_points_as_long_as_it_asks_for_them(mon
     rubs = BEARING.orbit(time, load, 0.1 * SPEED, film)
     assert samples[0] < 0.3 * time.size
     assert 0.9 * time.size < samples[1] < 1.1 * time.size
-    monkeypatch.setattr(composed_model, "LEVELS", levels[1:])
+    monkeypatch.setattr(composed_path, "LEVELS", levels[1:])
     fine = BEARING.orbit(time, load, 0.1 * SPEED, film)
     for name in ANSWERS:
         assert apart(rubs, fine, name) < 1e-2, name

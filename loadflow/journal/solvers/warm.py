@@ -319,7 +319,7 @@ def coupled(
     why = seized
     if warmth is not None and not seized:
         why = f"temperatures: {residual:.3g} K left after {iteration} fields"
-    if too_hot:
+    if too_hot and not seized:
         why = f"the film gets hotter than {HOTTEST} K: it warms to {found.max():.4g} K"
     return WarmFilm(solution, warmth, residual, iteration, False, why, bool(seized))
 
