@@ -4,6 +4,7 @@ import json
 import tomllib
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from synthetic import cube_file
 
@@ -457,3 +458,25 @@ def test_the_cost_of_an_effect_of_a_film_is_that_of_its_rung_and_motion(cube):
     assert cost(rung="reduced", motion="transient") == COSTS["tilt"]["reduced"][1]
     assert cost(rung="grid") == COSTS["tilt"]["grid"][0]
     assert cost(rung="map") == 1.0
+
+
+def _of_groove(tmp_path, **groove):
+    data = {
+        "shaft": {"two_point": {}},
+        "loads": {"files": [str(cube_file(tmp_path / "loads.h5", steps=200))]},
+        "journal": {"bearings": ["N"], "supply": {"grooves": [{"pressure": 6e5} | groove]}},
+        "results": ["journal.film"],
+    }
+    scene = make_scene(data)
+    return film.SUPPLY.indicator(situation(scene, list_cases(scene)))["minimum film"]
+
+
+def test_a_groove_takes_of_the_film_what_its_arc_and_its_pair_do(tmp_path):
+    around = [_of_groove(tmp_path, angle=a, arc=2 * np.pi, length=0.1) for a in (0.0, np.pi)]
+    assert min(around) > 0.0
+    assert around[0] == pytest.approx(around[1])
+    aside = {"angle": 0.0, "length": 0.3}
+    narrow, wide = (_of_groove(tmp_path, **aside, arc=arc) for arc in (0.2, 2.0))
+    assert wide > narrow
+    assert _of_groove(tmp_path, **aside, arc=2.0, axial=0.4) > wide
+    assert _of_groove(tmp_path, **aside, shape="circle") > 0

@@ -251,17 +251,21 @@ def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[
 def _to_decide(
     scene: Scene, chosen: Scene, known: Estimates, effects: list[Effect], cases: tuple[Case, ...]
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Names of the effects of which something is to decide, and of those among them to keep.
+    """Names of the effects that are asked about, and of those among them that are kept anyway.
 
-    These are effects that cost nothing, and such as their indicators leave no doubt of. A model
-    with no others is not asked, if it surely answers with all of them.
+    Kept are effects that cost nothing, and such as their indicators leave no doubt of: they are
+    not taken out. Whether all can be on together is asked all the same, but of a model that surely
+    answers.
     """
-    sure = {one.name for one in effects if _is_needed(scene, chosen, known, one)}
-    settled = sure | {one.name for one in effects if _costs_nothing(chosen, one, cases)}
+    settled = {
+        one.name
+        for one in effects
+        if _is_needed(scene, chosen, known, one) or _costs_nothing(chosen, one, cases)
+    }
     open_ = {
         one.model
         for one in effects
-        if one.name not in (settled if PROBES[one.model].surely_answers else sure)
+        if one.name not in settled or not PROBES[one.model].surely_answers
     }
     asked = tuple(one.name for one in effects if one.model in open_)
     return asked, tuple(name for name in asked if name in settled)
@@ -283,7 +287,7 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
 def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
     """Whether the plan has the effect, and expects to take no less time without."""
     without = switched(chosen, effect, False)
-    if not effect.is_on(chosen) or without is None:
+    if not effect.is_on(chosen) or without is None or effect.cost is None:
         return False
     with_it, left = (
         [expected_seconds(one, name, cases) for name in needed_stages(one)]

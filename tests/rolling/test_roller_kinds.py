@@ -111,6 +111,7 @@ def test_barrels_slip_less_in_flatter_raceways():
         ({"contact_angle": 0.1}, r"contact_angle: must be 0, .* got 0\.1"),
         ({"raceway_radius": 0.515}, r"raceway_radius: must be > 0\.515 m"),
         ({"shift": 1.0}, "shift"),
+        ({"shift": 0.3}, "shift: must be less than half the length of a roller"),
     ],
 )
 def test_what_is_no_toroidal_bearing_is_refused(change, message):

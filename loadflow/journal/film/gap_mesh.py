@@ -202,7 +202,7 @@ def between_marks(start: float, end: float, marks: Array, cells: int) -> Array:
     return even_cells(np.concatenate([[start], np.unique(np.round(inside, 12)), [end]]), cells)
 
 
-def even_cells(breaks: Array, cells: int) -> Array:
+def even_cells(breaks: Array, cells: float) -> Array:
     """Even cells between `breaks`, about `cells` in all."""
     counts = np.maximum(np.rint(np.diff(breaks) / np.ptp(breaks) * cells).astype(int), 1)
     parts = [np.linspace(a, b, n + 1)[:-1] for a, b, n in zip(breaks[:-1], breaks[1:], counts)]

@@ -226,8 +226,8 @@ def _narrowest_grown(film, work):
     least, at_points, at_all = 1e300, 1e300, 1e300
     for k in range(points):
         for i in range(nx):
-            if film.ring.groove[i]:
-                continue
+            if film.ring.back[i] == 0.0:
+                continue  # a groove between segments
             left = i - 1 if i > 0 else nx - 1
             before, h = faces[FACE_PLANES, left, k], planes[PLANES, i, k]
             after = faces[FACE_PLANES, i, k]
@@ -355,9 +355,9 @@ def _touch_shell(film, work, q):
             other = wide - ex * ring.cos[right] - ey * ring.sin[right] + there
             dip = 0.125 * step * step  # of a gap between two places, at most
             if ring.groove[i]:
-                edge = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
+                edge = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i] + min(here, 0.0)
             if ring.groove[right]:
-                other = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i]
+                other = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i] + min(there, 0.0)
             if min(edge, other) - dip * (abs(ex) + abs(ey)) >= beyond:
                 continue
             total, along_x, along_y = 0.0, 0.0, 0.0

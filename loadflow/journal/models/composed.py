@@ -1,4 +1,4 @@
-"""The rung "reduced" with effects: tilt, bend, crowns, asperities, a local shell, turbulent flow.
+"""The rung "reduced" with effects: tilt, crowns, asperities, a local shell, turbulence, supply.
 
 What `loadflow.journal.models.reduced` says of cells and points holds here, but that the gap changes
 across the width: a shaft that tilts or bends takes polynomials over the whole of it.

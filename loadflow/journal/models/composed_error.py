@@ -43,7 +43,7 @@ class Judged:
     def __init__(self, ring: Ring, nodes: Nodes, fed: bool, count: int) -> None:
         self.ring, self.nodes, self.fed = ring, nodes, fed
         self.facing, self.narrow, self.opens = np.zeros((count, 4)), np.zeros(count), np.ones(count)
-        self._grooves = np.where(ring.groove, np.inf, 0.0)[:, None]
+        self._grooves = np.where(ring.back == 0.0, np.inf, 0.0)[:, None]
         self._left = np.full((3, count), np.nan)
         self._waiting: list[tuple[int, Array]] = []
         self._drawing: list[tuple[Array, Array, float]] = []

@@ -45,6 +45,7 @@ from loadflow.journal.models.composed_model import (
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
+from loadflow.journal.models.composed_supply import parted_at
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.strips import made_in_film, passed_on, shares_of, strip_edges
@@ -107,7 +108,8 @@ class StripFilm(Temperatures):
         self._share = 0.5 if model.whole else 1.0  # the units are those of half of the width
         end, supply = float(units.mesh.z_edges[-1]), model.options.supply
         across = max(model.options.cells[1], _LEAST_STRIPS)
-        self._edges = strip_edges(end, across, model.whole, supply, units.radius)
+        marks = () if supply is None else parted_at(supply, model.bearing)
+        self._edges = strip_edges(end, across, model.whole, marks)
         self.z = 0.5 * (self._edges[1:] + self._edges[:-1])
         area = self._share * units.mirrors * units.radius**2
         ring = model.film.ring
@@ -242,8 +244,7 @@ class _Around:
         self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
         self.limits = replace(limits, strict=False)
         # the fewest points tell no narrow strips apart
-        levels = levels_at_rest(self.options)
-        self.levels = levels[1:] or levels  # beside grooves there is one
+        self.levels = levels_at_rest(self.options)[1:]
         given = self.bearing, self.options, self.speed, self.line, self.levels[0]
         self.known = dict[int, Known]()  # films of loads at temperatures tried before
         self.heat = cast("FilmHeat", options.heat)
@@ -282,7 +283,7 @@ class _Around:
 def equilibrium(
     bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
 ) -> dict[str, Any]:
-    """Fields of `FilmHeatEquilibrium`, (n, …), with one cell across.
+    """Fields of `FilmHeatEquilibrium`, (n, …), on the strips as cells across.
 
     Raises
     ------
@@ -362,6 +363,11 @@ def _at_rest(
         if not (found.converged and kept[0][0].left[0] and found.warmth is not None):
             break
         last = found.solution, found.warmth
+    if not kept:  # grown into its shell in oil as it enters: a film without heat, told as none
+        one = np.array([n])
+        load = around.force[one], around.speed[one], around.line.at(one)
+        films = films_at_rest(around.bearing, around.options, *load, around.limits, level)
+        kept[:] = [(films, None)]
     return kept[0][0], found
 
 

@@ -389,6 +389,12 @@ def unknowns_on(
     end = float(here.units.unknown_of(np.array([here.units.p_edge]))[0]) if edge is None else edge
     moved = np.full(there.work.u.shape, end)
     moved[:, :many] += (unknowns[:, :few] - end) @ across.T
+    held = there.film.held
+    if held.on and edge is None:  # grooves keep what they hold, up to a bearing end
+        columns = np.where(held.grooves >= 0)
+        moved[:, :many][columns] = there.cold()[:, :many][columns]
+    elif held.on:
+        put_in_grooves(there.units, held, moved)
     return moved
 
 

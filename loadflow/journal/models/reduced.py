@@ -73,7 +73,8 @@ def equilibrium(
 ) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid.
 
-    So are all on pads that tilt: at rest these are of the grid alone.
+    So are all on pads that tilt: at rest these are of the grid alone. With heat over the area a
+    load that fails here has no film, and says whether the grid has one.
     """
     if Bore.of(bearing).pads:
         return grid.equilibrium(bearing, options, force, speed, line, control)

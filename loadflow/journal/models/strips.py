@@ -5,35 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.grooves import groove_marks
+from loadflow.journal.film.gap_mesh import even_cells
 from loadflow.journal.models.width_modes import Nodes
-from loadflow.journal.supply import Supply
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
-_APART = 1e-9  # shares of the half width, between two places that are one
 
+def strip_edges(half: float, across: int, whole: bool, marks: tuple[float, ...]) -> Array:
+    """Edges of about `across` strips over the width, or half of it, also on `marks`.
 
-def strip_edges(
-    half: float, across: int, whole: bool, supply: Supply | None, radius: float
-) -> Array:
-    """Edges of about `across` strips over the width, or half of it, on the ends of grooves, too.
-
-    Lengths are in shaft radii, but for the `radius`, m.
+    Lengths are in shaft radii; marks are ends of grooves, shares of the half width.
     """
-    marks = np.zeros(0)
-    if supply is not None:
-        marks = np.unique(np.round(groove_marks(supply.grooves, 1, radius)[1] / half, 12))
-    inside = marks[(marks > _APART) & (marks < 1.0 - _APART)]
+    inside = np.array(marks)
     lower = np.append(-1.0, -inside[::-1]) if whole else np.zeros(1)
     breaks = np.concatenate([lower, inside, [1.0]])
-    counts = np.maximum(np.rint(np.diff(breaks) * 0.5 * across).astype(int), 1)
-    parts = [
-        np.linspace(low, high, count, endpoint=False)
-        for low, high, count in zip(breaks[:-1], breaks[1:], counts)
-    ]
-    return half * np.append(np.concatenate(parts), 1.0)
+    return half * even_cells(breaks, across if whole else 0.5 * across)
 
 
 def shares_of(nodes: Nodes, edges: Array) -> Array:

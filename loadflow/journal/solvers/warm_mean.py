@@ -118,18 +118,21 @@ def in_balance(
         More than `LEFT_OUT` of the loads have no film at rest.
     """
     warm = coupled(equation, film_of, None, heat_of)
-    fields, before = warm.iterations, 0
-    while warm.converged and warm.warmth is not None and loads.left and len(found) > before:
-        before = len(found)
+    fields, before, count = warm.iterations, 0, len(found)
+    while warm.converged and warm.warmth is not None and loads.left and count > before:
+        before = count
         loads.left.clear()
-        warm = coupled(equation, film_of, (warm.solution, warm.warmth), heat_of)
-        fields += warm.iterations
+        again = coupled(equation, film_of, (warm.solution, warm.warmth), heat_of)
+        fields += again.iterations
+        if not again.converged:  # a load that is found and lost in turn: without it there is one
+            break
+        warm, count = again, len(found)
     if not warm.converged or warm.warmth is None:
-        raise SolverError(f"orbit cannot start: {_no_mean(warm, len(found), loads)}")
+        raise SolverError(f"orbit cannot start: {_no_mean(warm, count, loads)}")
     asked = len(loads.every)
-    if len(found) < (1.0 - LEFT_OUT) * asked:
+    if count < (1.0 - LEFT_OUT) * asked:
         warnings.warn(
-            f"temperatures of the film: at rest {asked - len(found)} of {asked} loads of "
+            f"temperatures of the film: at rest {asked - count} of {asked} loads of "
             "the series have none; they are those of the others",
             ValidityWarning,
             stacklevel=6,

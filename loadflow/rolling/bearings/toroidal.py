@@ -74,6 +74,11 @@ class ToroidalRollerBearing(RollerRaceways, BearingOfRollers):
             raise InputError(
                 f"contact_angle: must be 0, barrels lie along the axis, got {self.contact_angle:g}"
             )
+        if abs(self.shift) >= self.roller_length / 2:
+            raise InputError(
+                f"shift: must be less than half the length of a roller, "
+                f"{self.roller_length / 2:g} m, got {self.shift:g}"
+            )
         sphere = (self.pitch_diameter + self.roller_diameter) / 2
         if self.raceway_radius <= sphere:
             raise InputError(

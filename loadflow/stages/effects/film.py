@@ -102,6 +102,7 @@ MOTION = Effect(
         else None
     ),
     indicator=_motion,
+    smaller=12.0,  # quick look: 60 % indicated of h_min, 6 % measured
     out='journal.motion = "quasi-static"; the run warns where the orbit differs',
     needs='journal.motion = "transient", of a shaft that never stands or has journal.contact',
 )
@@ -292,11 +293,15 @@ def _supply(at: Situation) -> Sizes:
         share = np.zeros_like(turns)
         for groove in own.supply.grooves:
             length = min(groove.length or size.width, size.width) / size.width
+            pair = 2.0 if groove.axial else 1.0  # either side of mid-plane
+            length = min(pair * length, 1.0)
+            arc = groove.arc or (groove.length or 0.0) / size.radius  # of a circle
             away = np.abs((groove.angle - lies + np.pi) % (2.0 * np.pi) - np.pi)
-            cut = length * np.clip(np.cos(np.maximum(away - turns, 0.0)), 0.0, 1.0)
+            away = np.maximum(away - 0.5 * arc - turns, 0.0)
+            cut = length * np.clip(np.cos(away), 0.0, 1.0)
             pump = own.supply.pump
             pressed = max(pump.pressure if pump else (groove.pressure,)) - own.edge_pressure
-            area = groove.arc * size.radius * length * size.width
+            area = arc * size.radius * length * size.width  # of a circle 4/π too large
             share = np.maximum(share, cut) + max(pressed, 0.0) * area / np.maximum(load.radial, 1.0)
         found.append({key: CUT[key] * min(float(share.max()), 1.0) for key in CUT})
     return largest(found) if found else dict.fromkeys(CUT, 0.0)

@@ -105,6 +105,8 @@ HEAT = Effect(
     is_on=lambda scene: scene.journal.heat is not None,
     switched=_warmed,
     indicator=_heat,
+    larger=lambda scene: 25.0,  # quick look: 2 % indicated of p_max, 38 % measured
+    cost=None,  # four times at rest, next to nothing on a long path
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
 )

@@ -212,6 +212,7 @@ SLICED = Effect(
     ),
     switched=_with_sliced_rollers,
     indicator=_sliced,
+    smaller=np.inf,  # quick look: life 600 % indicated, 12 % measured
     out='rolling.roller_model = "whole": each roller is one contact',
     needs='rolling.roller_model = "sliced"',
     concerns=lambda scene: any(map(_has_rollers, scene.rolling.bearings.values())),
