@@ -94,7 +94,7 @@ QUANTITIES: dict[str, Compared] = {
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
     "mixed_time": Compared(
         "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR,
-        no_error="not counted again: it is 0, or of films of pads or such as may be off by 100 %",
+        no_error="not counted again: of films of pads, or of such as may be off by 100 %",
     ),
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",

@@ -293,9 +293,10 @@ def _supply(at: Situation) -> Sizes:
         share = np.zeros_like(turns)
         for groove in own.supply.grooves:
             length = min(groove.length or size.width, size.width) / size.width
+            circle = groove.shape == "circle"
+            arc = length * size.width / size.radius if circle else groove.arc
             pair = 2.0 if groove.axial else 1.0  # either side of mid-plane
             length = min(pair * length, 1.0)
-            arc = groove.arc or (groove.length or 0.0) / size.radius  # of a circle
             away = np.abs((groove.angle - lies + np.pi) % (2.0 * np.pi) - np.pi)
             away = np.maximum(away - 0.5 * arc - turns, 0.0)
             cut = length * np.clip(np.cos(away), 0.0, 1.0)
