@@ -47,7 +47,7 @@ FEW = (12, 6)
 TIP_SPEED_RATIO = 7.5
 IDLING = 0.6
 """Share of the radius whose section sees no lift as the rotor idles, so that its speed is
-V/(share R tan(pitch)): within a tenth of series of the NREL 5 MW and the IEA 15 MW turbine at 2 to
+V/(share R tan(pitch)): within a fifth of series of the NREL 5 MW and the IEA 15 MW turbine at 2 to
 34 m/s."""
 FEATHERED_THRUST = 0.0015
 """Thrust coefficient of a rotor with feathered blades; NREL 5 MW, idling at 34 and parked at 50
@@ -124,7 +124,7 @@ class Film:
 
 @dataclass(frozen=True)
 class Situation:
-    """Loads of a scene at a few points, one for each wind speed or given series.
+    """Loads of a scene at a few points: of wind speeds and states of the rotor, or given series.
 
     Attributes
     ----------
