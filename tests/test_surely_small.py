@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from loadflow.planning.accuracy import surely_small
+from loadflow.planning.effects import estimates
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.planning.verification import differences
@@ -53,8 +54,10 @@ def test_rigid_rings_are_sure_where_their_indicator_is_surely_within_the_accurac
         life = plan.errors["rolling.life"]["life"] + (doubt - 1) * sizes["life"]
         for loads, lives, sure in ((1.01, 1.01, True), (0.99, 1.01, False), (1.01, 0.99, False)):
             scene = with_accuracy(plan.scene, loads * force, lives * life)
-            assert surely_small(scene, rings, stages, plan.cases) == sure
-    assert not surely_small(plan.scene, SLICED, stages, plan.cases)  # it is in
+            assert surely_small(scene, rings, estimates(scene, stages, plan.cases)) == sure
+    assert not surely_small(
+        plan.scene, SLICED, estimates(plan.scene, stages, plan.cases)
+    )  # it is in
 
 
 @pytest.mark.parametrize(

@@ -11,9 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from loadflow.planning.effects import Estimates, estimates
+from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import gains, ladder, measured
-from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
@@ -52,14 +51,7 @@ def expected_errors(scene: Scene, known: Estimates | None = None) -> Errors:
     }
 
 
-def surely_small(
-    scene: Scene,
-    effect: Effect,
-    stages: Iterable[str],
-    cases: tuple[Case, ...],
-    *,
-    alone: bool = False,
-) -> bool:
+def surely_small(scene: Scene, effect: Effect, known: Estimates, *, alone: bool = False) -> bool:
     """Return whether an effect is out for certain: its indicator leaves no doubt.
 
     Without it all that it moves holds the accuracy asked for, with all else that reaches these
@@ -72,16 +64,13 @@ def surely_small(
         With its models.
     effect : Effect
         Which; one that is in, or has no indicator, is in doubt.
-    stages : iterable of str
-        Stages that run.
-    cases : tuple of Case
-        Load cases.
+    known : Estimates
+        Of the effects of the scene.
     alone : bool
         Whether other effects that are out are not counted: a check looks at one at a time.
     """
     if not scene.asks or effect.is_on(scene):
         return False
-    known = estimates(scene, stages, cases)
     indicator = known.indicators.get(effect.name, {})
     by = effect.larger(scene)
     larger = {name: by * size for name, size in indicator.items()}

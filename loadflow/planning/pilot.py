@@ -169,7 +169,7 @@ def pilot(
             for one in worth
             if one.model != "loads"
             and (one.is_open(scene) or not one.is_on(scene))
-            and not surely_small(chosen, one, _stages(chosen), cases)
+            and not surely_small(chosen, one, known)
         ]
     effects, settled = tuple(one.name for one in worth), tuple[str, ...]()
     if brief:

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.planning.accuracy import surely_small
-from loadflow.planning.effects import switched
+from loadflow.planning.effects import estimates, switched
 from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -98,9 +98,12 @@ def warnings(tree: xr.DataTree) -> list[str]:
 
 def _sure(scene: Scene, case: Case, parts: Mapping[str, Any]) -> list[str]:
     """Effects that are out for certain, and are not solved again for what they may change."""
+    if not scene.asks:
+        return []
     stages = [name for name in STAGES if name in parts]
+    known = estimates(scene, stages, (case,))
     able = (one for one in COMPARED.values() if switched(scene, one, True) is not None)
-    return [one.name for one in able if surely_small(scene, one, stages, (case,), alone=True)]
+    return [one.name for one in able if surely_small(scene, one, known, alone=True)]
 
 
 def _allowed(scene: Scene, row: Difference) -> float:

@@ -168,9 +168,8 @@ def test_temperatures_settle_where_oil_nearly_stands(number):
     assert answer.heat_imbalance < 1e-8
 
 
-@pytest.mark.parametrize("number", [20164, 20282])
-def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypatch, number):
-    _, solve = drawn("heat", number)
+def asked_of_the_grid(monkeypatch) -> list[Any]:
+    """A list that grows by one with each question for films at rest on the grid."""
     asked, rows = [], grid.equilibrium_rows
 
     def counted(*arguments: Any) -> Any:
@@ -178,6 +177,13 @@ def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypat
         return rows(*arguments)
 
     monkeypatch.setattr(grid, "equilibrium_rows", counted)
+    return asked
+
+
+@pytest.mark.parametrize("number", [20164, 20282])
+def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypatch, number):
+    _, solve = drawn("heat", number)
+    asked = asked_of_the_grid(monkeypatch)
     with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K"):
         solve()
     assert len(asked) <= 8
@@ -191,13 +197,7 @@ def test_a_free_groove_whose_iteration_diverges_ends_in_a_reason():
 
 def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperatures(monkeypatch):
     _, solve = drawn("composed", 131)
-    asked, rows = [], grid.equilibrium_rows
-
-    def counted(*arguments: Any) -> Any:
-        asked.append(arguments)
-        return rows(*arguments)
-
-    monkeypatch.setattr(grid, "equilibrium_rows", counted)
+    asked = asked_of_the_grid(monkeypatch)
     with pytest.raises(SolverError, match=r"no film at any temperature.*touches the elastic shell"):
         solve()
     assert len(asked) <= 8

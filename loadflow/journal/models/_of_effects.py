@@ -22,7 +22,7 @@ del _OPTIONS["cache"]  # with that of the kernel that calls it
 
 
 def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
-    """Of a function of such an effect, called by kernels alone; `nothing` is it in a `SmoothFilm`.
+    """Of a function of such an effect, called by kernels; `nothing` is it in a `SmoothFilm`.
 
     The film is its first argument.
     """
@@ -30,7 +30,7 @@ def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
     def of(function: Callable[..., Any]) -> Any:
         @wraps(function)
         def called(*given: Any) -> Any:
-            raise NotImplementedError("compiled functions alone call it")
+            return function(*given)  # where nothing is compiled
 
         @overload(called, jit_options=_OPTIONS, strict=False)
         def chosen(film: Any, *others: Any) -> Callable[..., Any]:
