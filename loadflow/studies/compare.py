@@ -82,7 +82,7 @@ def compared(
     order = sorted(answers, key=lambda one: one.rank)
     return Comparison(
         name=scene.name,
-        conclusion=conclusion(order),
+        conclusion=conclusion(order, failures),
         candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
         shaft=drawn(scene),

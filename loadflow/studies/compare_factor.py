@@ -129,8 +129,8 @@ def _crossing(reserve: Callable[[float], float]) -> float:
         left = known(x)
 
 
-def oil_told(bearing: Journal | AnyAxial, factor: float) -> str:
-    """In words, the oil of a film so many times as thick."""
+def oil_told(bearing: Journal | AnyAxial, factor: float = 1.0) -> str:
+    """In words, the oil of a film, or one so many times as thick."""
     where = "" if bearing.film_model.heat is None else " as it enters"
     return f"oil of {1e3 * factor * bearing.film_model.liquid.viscosity:.3g} mPa s{where}"
 

@@ -498,6 +498,10 @@ def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline
     )
     assert "Reservations" not in conclusion([rolls, collar])
     assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
+    told = conclusion([rolls, bare], {"pads": "no equilibrium"})
+    assert "Without an answer, and not counted: pads." in told
+    gone = replace(rolls, unanswered={"rolling of one": "no equilibrium"})
+    assert "which have parts without an answer." in conclusion([gone])
 
 
 def test_bearings_of_the_scene_are_none_of_a_candidate_that_has_others():
