@@ -15,8 +15,8 @@ from loadflow.scene.scene import make_scene
 from loadflow.studies.band_films import deciding_of, films_of
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import Number
-from loadflow.studies.design_point import fast_journal
 from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.tolerance_bands import Known, _as_share, _banded, cheap_numbers
 from loadflow.studies.wear_bands import Rubbing
 
