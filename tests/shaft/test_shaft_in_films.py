@@ -125,9 +125,9 @@ def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):
         )  # fmt: skip
         late = slice(5 * STEPS // 6, None)  # the past of one has gone from the other by then
         off = np.abs(alone["eccentricity"].values - both.position[:, k])[late].max()
-        assert off < 5e-4 * options.geometry.clearance
+        assert off < 2e-3 * options.geometry.clearance
         ours = both.paths[k]["minimum_film"].values[late]
-        assert np.allclose(alone["minimum_film"].values[late], ours, rtol=2e-3)
+        assert np.allclose(alone["minimum_film"].values[late], ours, rtol=5e-3)
 
 
 def test_forces_and_moments_balance(moved):

@@ -196,25 +196,24 @@ class _March:
         return models
 
     def begins(self) -> None:
-        """Films at rest at the first time, around a shaft that lies as near its loads as it can.
+        """Films at the first time, around a shaft that lies as near its loads as it can.
 
         Under these alone, aligned, it may lie so far apart in both films that it has no place.
         """
         models = self.films[LEVELS[0]]
+        far = []
         for k, (side, model) in enumerate(zip(self.sides, models)):
-            given = side, model, self.lying.force[:1, k], self.speed[:1], self.control
-            side.place[:] = model.estimates(given[2], self.speed[:1], _line_of(side) * 0.0)[0]
-            _at_rest(*given, 2)
-        far = np.concatenate([side.place[:2] for side in self.sides])
+            along = np.concatenate([np.zeros((1, 2)), side.bend[:1]], axis=1)
+            far.append(model.estimates(self.lying.force[:1, k], self.speed[:1], along)[0, :2])
         for share in _SHARES:
-            self.shared.at[:] = share * far
+            self.shared.at[:] = share * np.concatenate(far)
             for side in self.sides:
                 side.place[:] = side.lies @ self.shared.at + side.given[0]
             both = zip(self.sides, models)
             if min(m.least(s.place[None], s.bend[:1])[0] for s, m in both) > _ROOM:
                 break
         for k, (side, model) in enumerate(zip(self.sides, models)):
-            _at_rest(side, model, self.lying.force[:1, k], self.speed[:1], self.control, 0)
+            _held(side, model, self.lying.force[:1, k], self.speed[:1], self.control)
             side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
         self.shared.before[:] = self.shared.at
 
@@ -323,21 +322,15 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     )  # fmt: skip
 
 
-def _line_of(side: Side) -> Array:
-    """Tilt and bend in one of the films at the first time, (1, 4)."""
-    return np.concatenate([side.place[None, 2:], side.bend[:1]], axis=1)
-
-
-def _at_rest(
-    side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits, size: int
-) -> None:
-    """A film at rest at the first time, around a shaft that is free in `size` coordinates."""
+def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:
+    """The film at the first time, around a shaft that is held at its place."""
     work, most = side.work, 4 * control.max_iterations
+    line = np.concatenate([side.place[None, 2:], side.bend[:1]], axis=1)
     work.bend[:], work.u[:], work.kept[0] = side.bend[0], model.cold(), 0.0
     solve(
-        side.film, work, side.place, size, 0, _NOW, model.loads(force), _line_of(side),
-        speed * side.thin[0], control.tolerance, most, np.inf, side.rows[:1],
-        np.zeros((2, 0, 0)), COLD, standing_states(1),
+        side.film, work, side.place, 0, 0, _NOW, model.loads(force), line, speed * side.thin[0],
+        control.tolerance, most, np.inf, side.rows[:1], np.zeros((2, 0, 0)), COLD,
+        standing_states(1),
     )  # fmt: skip
     if not side.rows[0, at.CONVERGED] > 0.0:
         missed = tuple(side.rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
