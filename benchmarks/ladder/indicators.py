@@ -86,15 +86,15 @@ def pairs(kept: dict[str, Any], scenes: dict[str, Scene]) -> Iterator[Pair]:
             scene = parts.on_seat(one["turbine"], one["speed"], parts.SEATS[seat])
             said = indicated(scene)[STIFFNESS.name]
             loads = {name: size for name, size in sizes.items() if name in said}
-            yield from _beside(f"{seat}, {one['turbine']}", {STIFFNESS.name: said}, {STIFFNESS.name: loads})
+            yield from _beside(
+                f"{seat}, {one['turbine']}", {STIFFNESS.name: said}, {STIFFNESS.name: loads}
+            )
     for one in [*kept.get("scenes", []), *kept.get("jobs", [])]:
         found = {effect["name"]: effect["size"] or {} for effect in one["effects"]}
         yield from _beside(one["scene"], indicated(scenes[one["scene"]]), found)
 
 
-def _beside(
-    place: str, said: dict[str, Sizes], measured: dict[str, Sizes]
-) -> Iterator[Pair]:
+def _beside(place: str, said: dict[str, Sizes], measured: dict[str, Sizes]) -> Iterator[Pair]:
     for effect, sizes in measured.items():
         for quantity, size in sizes.items():
             if effect in said:
@@ -104,13 +104,32 @@ def _beside(
 def indicator_table(found: Iterable[Pair]) -> str:
     """A row for each effect and answer: how often it counts, and the factors."""
     every = list(found)
-    lines = [head("effect", "answer", "pairs", "smallest", "largest", "where largest measured over indicated", numbers=False)]
+    lines = [
+        head(
+            "effect",
+            "answer",
+            "pairs",
+            "smallest",
+            "largest",
+            "where largest measured over indicated",
+            numbers=False,
+        )
+    ]
     for effect in (one.name for one in EFFECTS):
         ours = [one for one in every if one.effect == effect and one.counts]
         for quantity in dict.fromkeys(one.quantity for one in ours):
             rows = sorted((one for one in ours if one.quantity == quantity), key=lambda p: p.factor)
             low, high = rows[0], rows[-1]
-            lines.append(row(effect, quantity, len(rows), f"{low.factor:.2g}", f"{high.factor:.2g}", f"{low.place}: {low.indicated:.2g}/{low.measured:.2g}; {high.place}: {high.indicated:.2g}/{high.measured:.2g}"))
+            lines.append(
+                row(
+                    effect,
+                    quantity,
+                    len(rows),
+                    f"{low.factor:.2g}",
+                    f"{high.factor:.2g}",
+                    f"{low.place}: {low.indicated:.2g}/{low.measured:.2g}; {high.place}: {high.indicated:.2g}/{high.measured:.2g}",
+                )
+            )
     return "\n".join(lines)
 
 

@@ -1,16 +1,15 @@
 """A shaft and the films of its two journal bearings, in motion together.
 
-Where films follow the whole series (`journal.motion = "transient"`), the shaft is tilted by where it
-is in both of them at each time, and not by where it would rest: squeeze holds it while loads swing.
-So shaft and films are one system. The shaft stage tells its loads and how it lies, the stage of the
-films what these are; both ask for the same path, which is kept from one to the other.
+Where films follow the whole series (`journal.motion = "transient"`), the shaft is tilted by where
+it is in both of them at each time, and not by where it would rest: squeeze holds it while loads
+swing. So shaft and films are one system. The shaft stage tells its loads and how it lies, the stage
+of the films what these are; both ask for the same path, which is kept from one to the other.
 """
 
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 import xarray as xr
@@ -26,7 +25,7 @@ from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept
 from loadflow.shaft.in_films import ShaftInFilms
 from loadflow.shaft.reactions import films_dataset, shaft_in_films
-from loadflow.stages.film_past import AT_REST, Past, after_past, past_of
+from loadflow.stages.film_past import Past, after_past, past_of
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import from_film, to_film
 
