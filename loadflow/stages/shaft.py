@@ -18,14 +18,12 @@ from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, 
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.bores import follow_the_shaft, with_bores
 from loadflow.stages.labelling import labelled
+from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
 
 Floats = np.ndarray
-
-STILL = 0.01
-"""Share of the largest speed of a series, below which surfaces touch and no film is asked."""
 
 _GLIDING = 0.1  # share of the largest speed, above which a film changes with its logarithm
 
@@ -48,7 +46,10 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     )
     speed = series["speed"].values.astype(float)
     parts = [
-        _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
+        _against_bores(shaft_on_films(scene, concept, series, tilt))
+        if move_together(scene, concept) and runs(speed)
+        else _suspended(scene, concept, force, moment, speed, tilt)
+        for concept in scene.shaft.concepts
     ]
     if scene.shaft.yaw is not None:
         parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
