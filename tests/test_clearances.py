@@ -83,7 +83,7 @@ def test_what_a_slope_closes_grows_with_clearance_and_with_bores_that_are_turned
 
 
 def test_a_plan_counts_the_tilt_in_the_clearances_until_films_are_fed_back():
-    rigid, floats = scene_of(), scene_of(FLOATS)
+    rigid, floats = (scene_of(part, motion="quasi-static") for part in ([], FLOATS))
     left, counted = make_plan(rigid), make_plan(floats)
     assert left.errors["journal.film"]["minimum film"] > 1.0
     assert not left.accurate
@@ -92,6 +92,16 @@ def test_a_plan_counts_the_tilt_in_the_clearances_until_films_are_fed_back():
     assert CLEARANCES.name not in counted.left_out
     assert counted.errors["journal.film"]["minimum film"] < 0.5
     assert not any(CLEARANCES.name in said for said in counted.shortfalls)
+
+
+def test_a_plan_feeds_films_back_where_the_accuracy_asks_for_it():
+    scene = scene_of()
+    plan = make_plan(scene)
+    assert CLEARANCES.is_on(plan.scene)
+    assert plan.scene.journal.tilt
+    assert plan.accurate
+    rough = make_plan(scene.model_copy(update={"accuracy": 1e6}))
+    assert not CLEARANCES.is_on(rough.scene)
 
 
 def test_it_is_the_scene_s_that_states_supports_and_needs_two_films_on_a_beam():

@@ -1,10 +1,11 @@
 """Bores of journal bearings that are turned against a shaft that does not bend.
 
 Machines are assembled with bores that follow the shaft as it lies at its usual load,
-``alignment = "mean"``. The usual load of a simulated machine is that of steady operation from
-cut-in to cut-out, each wind speed with its share of the lifetime; of given series, it is the mean
-of those that turn, each with the weight of its load case. So it depends on machine and loads alone:
-every load case has the same bores, in whatever process it is.
+``alignment = "mean"``. The usual load of a simulated machine is that of operation from cut-in to
+cut-out, steady but for moments that scatter with the turbulence, each wind speed with its share of
+the lifetime; of given series, it is that of samples of those that turn, each with the weight of its
+load case. So it depends on machine and loads alone: every load case has the same bores, in whatever
+process it is.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floating
 from loadflow.shaft import Concept
 from loadflow.shaft import bearing_loads as reactions
+from loadflow.stages.effects.situation import SWING
 from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.frames import from_film
 from loadflow.stages.labelling import label
@@ -31,9 +33,12 @@ Floats = NDArray[np.float64]
 STEP = 2.0
 """Distance of the wind speeds of steady operation, m/s."""
 
+SAMPLES = 200
+"""Samples that are taken of a given series."""
+
 
 class UsualLoads(NamedTuple):
-    """Mean loads of the hub, (3, n), N and N m, speed (n,), rad/s, and weight (n,) of each."""
+    """Loads of the hub, (3, n), N and N m, speed (n,), rad/s, and weight (n,) of each."""
 
     force: Floats
     moment: Floats
@@ -103,7 +108,7 @@ def _mean_tilt(scene: Scene, usual: UsualLoads) -> dict[str, Floats]:
     for kind, concept in scene.shaft.suspensions.items():
         if concept.beam is None:
             continue
-        rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
+        rigid = replace(concept, beam=concept.beam.free_in_films().on_rigid_bearings())
         loads = reactions(rigid, usual.force, usual.moment, tilt=gravity)
         turned = (loads["tilt"] - loads["bore_tilt"]).transpose("bearing", "time", "axis")
         slope = np.zeros((usual.speed.size, 3))
@@ -149,9 +154,13 @@ def usual_loads(scene: Scene) -> UsualLoads:
 
 
 def _of_operation(scene: Scene) -> UsualLoads:
-    """Steady operation from cut-in to cut-out."""
+    """Steady operation from cut-in to cut-out, and what turbulence adds to its moments.
+
+    Films do not lie in the mean where the mean load has them. The moments about both axes are those
+    of three nodes of a normal distribution with the spread of `SWING`.
+    """
     from loadflow.rotor import steady_state
-    from loadflow.scene.cases import speed_shares, wind_class
+    from loadflow.scene.cases import Case, speed_shares, wind_class, wind_of
     from loadflow.turbines import load_turbine
 
     turbine, loads = load_turbine(scene.turbine.name), scene.loads
@@ -165,12 +174,24 @@ def _of_operation(scene: Scene) -> UsualLoads:
     force, moment = (
         found[name].transpose("axis", "wind_speed").values for name in ("hub_force", "hub_moment")
     )
-    weight = np.array([shares[wind] for wind in winds])
-    return UsualLoads(force, moment, found["speed"].values, weight)
+    sigma = np.array([wind_of(scene, Case("1.1", float(wind), 1)).sigma for wind in winds])
+    radius = turbine.rotor.radius
+    push = scene.environment.air_density * np.pi * radius**3 * winds * sigma
+    across = SWING * push * np.array([np.zeros((3, 3)), *np.meshgrid(_NODES, _NODES)])[..., None]
+    count = 9 * winds.size
+    moment = (moment[:, None, None] + across).reshape(3, count)
+    weight = np.outer(_SHARES, _SHARES)[..., None] * [shares[wind] for wind in winds]
+    return UsualLoads(
+        np.tile(force, 9), moment, np.tile(found["speed"].values, 9), weight.reshape(count)
+    )
+
+
+_NODES = np.sqrt(3.0) * np.array([-1.0, 0.0, 1.0])  # of a normal distribution, and their shares
+_SHARES = np.array([1.0, 4.0, 1.0]) / 6.0
 
 
 def _of_series(scene: Scene) -> UsualLoads:
-    """Means of given series that turn, of one load case of each wind speed."""
+    """Samples of given series that turn, of one load case of each wind speed."""
     from loadflow.scene.cases import list_cases
     from loadflow.stages.loads import hub_loads
 
@@ -182,14 +203,17 @@ def _of_series(scene: Scene) -> UsualLoads:
         mean = float(series["speed"].mean())
         if abs(mean) < SLOWEST:
             continue
-        force.append(series["hub_force"].transpose("time", "axis").values.mean(axis=0))
-        moment.append(series["hub_moment"].transpose("time", "axis").values.mean(axis=0))
-        speed.append(mean)
-        weight.append(sum(one.weight for one in cases if one.wind_speed == wind))
+        some = np.unique(np.linspace(0, series.sizes["time"] - 1, SAMPLES).astype(int))
+        series = series.isel(time=some)
+        force.append(series["hub_force"].transpose("axis", "time").values)
+        moment.append(series["hub_moment"].transpose("axis", "time").values)
+        speed.append(series["speed"].values)
+        share = sum(one.weight for one in cases if one.wind_speed == wind)
+        weight.append(np.full(some.size, share / some.size))
     if not speed:
         raise InputError(
             'journal.alignment = "mean": none of the load series turns; give the turn of the '
             "bores in rad, or series in operation"
         )
-    vectors = (np.array(rows, dtype=float).T for rows in (force, moment))
-    return UsualLoads(*vectors, np.array(speed), np.array(weight))
+    columns = (np.concatenate(rows, axis=-1) for rows in (force, moment, speed, weight))
+    return UsualLoads(*(np.asarray(column, dtype=float) for column in columns))

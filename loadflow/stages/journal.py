@@ -92,7 +92,11 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
             bearing: with_running(
                 scene,
                 _moving(
-                    scene, bearing, loads, shaft.sel(bearing=bearing), is_parked(case),
+                    scene,
+                    bearing,
+                    loads,
+                    shaft.sel(bearing=bearing),
+                    is_parked(case),
                     together.get(bearing),
                 ),
             )

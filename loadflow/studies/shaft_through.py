@@ -163,7 +163,7 @@ def fitting_shaft(scene: Scene, candidate: Candidate) -> Shaft:
 def _bent(concept: Concept, gravity: float, place: str, samples: xr.Dataset) -> dict[str, Array]:
     """Tilt, rad, and curvature, 1/m, of the shaft in a bearing under the hub loads of samples."""
     assert concept.beam is not None
-    rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
+    rigid = replace(concept, beam=concept.beam.free_in_films().on_rigid_bearings())
     loads = np.concatenate(
         [samples[name].transpose("axis", "sample").values for name in ("hub_force", "hub_moment")]
     )

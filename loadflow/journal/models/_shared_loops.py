@@ -265,7 +265,9 @@ def _advance(one, other, shared):
         side = one if k == 0 else other
         work = side.work
         gap = narrowest(side.film, work)
-        work.step[0] = max(gap - (1.0 - KEPT) * max(gap, side.film.rough.size), -side.film.rough.deepest)
+        work.step[0] = max(
+            gap - (1.0 - KEPT) * max(gap, side.film.rough.size), -side.film.rough.deepest
+        )
         for i in range(work.u.shape[0]):
             for j in range(work.u.shape[1]):
                 work.trial[i, j] = work.u[i, j]

@@ -10,10 +10,13 @@ from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floating, floats_in_films
 from loadflow.shaft import Concept
+from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
 from loadflow.stages.frames import from_film, to_film
+from loadflow.stages.shaft_in_films import move_together
+from loadflow.stages.stage import with_settings
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
@@ -113,20 +116,43 @@ _SHARES = {
 
 
 def _stated(scene: Scene) -> bool:
-    """Whether a scene says what its shaft rests on."""
+    """Whether a scene says what its shaft rests on, or that films are not those it floats in."""
     found = floating(scene.shaft, scene.journal)
-    return any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    other = {key for key, value in _TOGETHER.items() if getattr(scene.journal, key) != value}
+    stated = any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    return stated or bool(other & scene.journal.model_fields_set)
 
 
 def _switched(scene: Scene, on: bool) -> Scene | None:
-    changed = {}
-    if on:
+    """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
+
+    None where these are no films that can be.
+    """
+    journal = with_settings(scene, "journal", _TOGETHER) if on else scene
+    if journal is None:
         return None
-    for kind, concept, _ in floating(scene.shaft, scene.journal):
-        if concept.beam is not None:
-            changed[kind] = replace(concept, beam=concept.beam.on_rigid_bearings())
-    shaft = scene.shaft.model_copy(update=changed)
-    return scene.model_copy(update={"shaft": shaft})
+    held = set(scene.thrust.collars)
+    if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
+        return None  # their moment, which no model feeds back, would hold the shaft
+    support = BearingSupport(stiffness="journal", takes_moment=True)
+    changed = {}
+    for kind, concept, films in floating(scene.shaft, scene.journal):
+        if concept.beam is not None and on:
+            supports = (support,) * len(films)
+            changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
+        elif concept.beam is not None:
+            changed[kind] = replace(concept, beam=concept.beam.free_in_films())
+    found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
+    together = all(
+        move_together(found, concept)
+        for _, concept, _ in floating(found.shaft, found.journal)
+        if concept.beam is not None
+    )
+    return found if not on or together else None
+
+
+_TOGETHER = {"tilt": True, "motion": "transient", "rung": "reduced"}
+"""Keys of films that are followed together with the shaft between them."""
 
 
 CLEARANCES = Effect(
@@ -138,7 +164,8 @@ CLEARANCES = Effect(
     stated=_stated,
     indicator=_indicator,
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
-    needs='a beam whose supports at all films have stiffness = "journal"',
+    needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
+    'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; no thrust collar beside them',
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))

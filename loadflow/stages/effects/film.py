@@ -157,8 +157,11 @@ def _tilt(at: Situation) -> Sizes:
 
 
 def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
-    """On the rung "reduced" a film around a shaft that may tilt has loops of its own."""
-    if scene.journal.rung != "reduced":
+    """On the rung "reduced" a film around a shaft that may tilt has loops of its own.
+
+    Not where it is followed with the shaft, which tilts as it moves.
+    """
+    if scene.journal.rung != "reduced" or scene.shaft.coupled:
         return None
     return lambda given: {**given, "shaft": aligned(scene.journal, given["shaft"])}
 
