@@ -82,7 +82,7 @@ def samples_of(
 
     Vectors are in the frame of the cube; `tilt` (sample, axis) is there where it acts on the films.
     """
-    tilts = scene.thrust.tilt and bearing.kind == "thrust"
+    tilts = scene.thrust.tilt and bearing.kind == "thrust" and not bearing.self_aligning
     moving = follows(scene, bearing)
     if scene.reduction.method != "histogram" and not moving:
         reduced = against_bore(inputs["reduction"][place].to_dataset())

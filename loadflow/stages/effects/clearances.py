@@ -131,7 +131,7 @@ def _switched(scene: Scene, on: bool) -> Scene | None:
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
     if journal is None:
         return None
-    held = set(scene.thrust.collars)
+    held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
     if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
         return None  # their moment, which no model feeds back, would hold the shaft
     support = BearingSupport(stiffness="journal", takes_moment=True)
@@ -165,7 +165,8 @@ CLEARANCES = Effect(
     indicator=_indicator,
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
-    'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; no thrust collar beside them',
+    'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '
+    "a thrust collar beside them must be self_aligning",
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))
