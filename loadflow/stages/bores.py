@@ -87,6 +87,17 @@ def against_bore(bearing: xr.Dataset) -> xr.Dataset:
     return bearing.assign(tilt=tilt.transpose(*bearing["tilt"].dims))
 
 
+def following(bearing: xr.Dataset) -> xr.Dataset:
+    """Samples of a bearing with their `weight`, and the `alignment` of a bore that follows them.
+
+    That is the mean of their own `tilt`: of a spectrum, which tells the loads of all load cases.
+    """
+    if "tilt" not in bearing:
+        return bearing
+    mean = bearing["tilt"].weighted(bearing["weight"]).mean("sample")
+    return bearing.assign(alignment=mean.assign_attrs(bearing["tilt"].attrs))
+
+
 _KNOWN: dict[str, dict[str, Floats]] = {}
 """Mean tilt by digest of what it depends on: load cases of a process share it."""
 
