@@ -24,6 +24,9 @@ class ThrustCollar(AxialBearing):
     if left out; ``play`` is what the collar moves from one row to the other, m. With a table
     ``heat`` the friction of the films warms their oil, which takes the place of ``lubricant``: each
     row has its own temperature, at rest that of each sample, in motion one for the whole series.
+
+    ``self_aligning`` pads stand on a carrier that turns with the collar: however the shaft tilts,
+    their films stay aligned, and give it no moment.
     """
 
     kind: Literal["thrust"] = "thrust"
@@ -31,6 +34,7 @@ class ThrustCollar(AxialBearing):
     back: Lands | None = None
     play: Positive = 4e-4
     heat: PadHeat | None = None
+    self_aligning: bool = False
 
     @model_validator(mode="after")
     def _one_oil(self) -> Self:

@@ -396,6 +396,7 @@ def _links(scene: Scene) -> Links:
     return {
         quantity: (
             *load_links("radial force max"),
+            Link("shaft", quantity),  # how the shaft lies in the bearing
             *(() if scene.journal.in_motion else (Link("reduction", end),)),
             Link("journal", quantity),
         )

@@ -16,6 +16,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
+from loadflow.stages.bores import follow_the_shaft, with_bores
 from loadflow.stages.labelling import labelled
 from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -55,6 +56,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     if scene.shaft.pitch is not None:
         parts.append(pitch_loads(scene.shaft.pitch, *root_loads(series)))
     joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
+    joined = with_bores(scene, joined)
     return joined.assign_coords(time=series["time"]).astype("float32")
 
 
@@ -237,7 +239,9 @@ STAGE = Stage(
     run=bearing_loads,
     needs=always("loads"),
     sections=lambda scene: (
-        ("shaft", "turbine", "journal", "rolling") if scene.shaft.coupled else ("shaft", "turbine")
+        *("shaft", "turbine"),
+        *(("journal", "rolling") if scene.shaft.coupled else ()),
+        *(("journal",) if follow_the_shaft(scene) and not scene.shaft.coupled else ()),
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

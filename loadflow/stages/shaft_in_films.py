@@ -25,6 +25,8 @@ from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept
 from loadflow.shaft.in_films import ShaftInFilms
 from loadflow.shaft.reactions import films_dataset, shaft_in_films
+from loadflow.stages.bores import bores
+from loadflow.stages.film_of_bearing import follow
 from loadflow.stages.film_past import Past, after_past, past_of
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import from_film, to_film
@@ -117,6 +119,32 @@ def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
     return _KEPT[key]
 
 
+def in_motion(
+    scene: Scene,
+    bearing: str,
+    loads: xr.Dataset,
+    shaft: xr.Dataset,
+    start: Floats | None = None,
+) -> xr.Dataset:
+    """Film of a bearing in motion along `loads`: with the shaft, or around it as it lies.
+
+    Around a shaft that lies as `shaft` says of the bearing it begins at the place `start`, (2,), m.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No film to begin with, or a step without an answer.
+    """
+    from loadflow.turbines import load_turbine
+
+    speed = loads["speed"].values.astype(float)
+    concept = next((one for one in scene.shaft.concepts if bearing in one.bearings), None)
+    if concept is None or not move_together(scene, concept) or not runs(speed):
+        return follow(scene.journal.at(bearing), loads, shaft, start)
+    both = films_together(scene, concept, loads, load_turbine(scene.turbine.name).rotor.tilt)
+    return both.path.paths[concept.bearings.index(bearing)]
+
+
 _KEPT: dict[str, FilmsTogether] = {}  # the last one alone
 
 
@@ -137,7 +165,9 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
     time, force, moment, speed = _series(loads)
     shaft = shaft_in_films(concept, force, moment, tilt=tilt)
     bearings = [scene.journal.at(name) for name in concept.bearings]
-    given = _given(shaft, bearings, time.size)
+    turned = bores(scene)
+    bore = to_film(np.array([turned[name] for name in concept.bearings]))
+    given = _given(shaft, bore, time.size)
     still = [options.model_copy(update={"tilt": False}) for options in bearings]
     warm = tuple(
         mean_temperature(options, given["force"][:, k], speed) for k, options in enumerate(still)
@@ -167,10 +197,12 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
     return FilmsTogether(after_past(path, past_of(scene, loads), time), warm)
 
 
-def _given(shaft: ShaftInFilms, bearings: list[Journal], count: int) -> dict[str, Floats]:
-    """Loads, tilt and bend of the shaft in the middle of both films, (n, 2, 2) in their axes."""
+def _given(shaft: ShaftInFilms, bore: Floats, count: int) -> dict[str, Floats]:
+    """Loads, tilt and bend of the shaft in the middle of both films, (n, 2, 2) in their axes.
+
+    The tilt is that against bores which are turned by `bore` (2, 2), rad.
+    """
     none = np.zeros((4, count))
-    bore = np.array([options.alignment for options in bearings], dtype=float)
     motion = shaft.motion(none, none, np.ones(count, dtype=bool), 0.0)
     return {
         "force": _film(shaft.force(none)),

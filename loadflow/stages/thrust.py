@@ -14,6 +14,7 @@ from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.bores import against_bore
 from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.kept_samples import edges_of_cube, kept_samples
@@ -83,10 +84,11 @@ def samples_of(
     """
     moving = follows(scene, bearing)
     if scene.reduction.method != "histogram" and not moving:
-        reduced: xr.Dataset = inputs["reduction"][place].to_dataset()
+        reduced = against_bore(inputs["reduction"][place].to_dataset())
         names = ("tilt",) if _tilts(scene, bearing) and "tilt" in reduced else ()
         return reduced[["time", "speed", "weight", "force", "moment", *names]]
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load().sel(bearing=place)
+    shaft = against_bore(shaft)  # pads stand in the housing of the bore
     tilted = lies(scene, bearing, shaft)
     if moving:
         return _whole(loads, shaft, tilted)
@@ -116,7 +118,7 @@ def samples_of(
 
 
 def _tilts(scene: Scene, bearing: AnyAxial) -> bool:
-    return scene.thrust.tilt and bearing.kind == "thrust"
+    return scene.thrust.tilt and bearing.kind == "thrust" and not bearing.self_aligning
 
 
 def lies(scene: Scene, bearing: AnyAxial, shaft: xr.Dataset) -> bool:
