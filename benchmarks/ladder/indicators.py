@@ -134,12 +134,12 @@ def indicator_table(found: Iterable[Pair]) -> str:
 
 
 def main() -> None:
-    from benchmarks.ladder.physics import kept_so_far, ten_scenes
+    from benchmarks.ladder.physics import jobs_asked, kept_so_far, ten_scenes
 
     parser = arguments(__doc__)
     parser.add_argument("--all", action="store_true", help="each pair")
     asked = parser.parse_args()
-    found = list(pairs(kept_so_far(), ten_scenes()))
+    found = list(pairs(kept_so_far(), ten_scenes() | jobs_asked()))
     if asked.all:
         for one in found:
             print(one)

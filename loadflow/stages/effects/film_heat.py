@@ -14,7 +14,7 @@ from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.film_costs import cost_of
+from loadflow.stages.effects.film_costs import cost_of, cost_of_heat
 from loadflow.stages.effects.film_sizes import largest, worst
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.stage import with_settings
@@ -137,8 +137,7 @@ HEAT = Effect(
     is_on=lambda scene: scene.journal.heat is not None,
     switched=_warmed,
     indicator=_heat,
-    larger=lambda scene: 25.0,  # quick look: 2 % indicated of p_max, 38 % measured
-    cost=None,  # four times at rest, next to nothing on a long path
+    cost=cost_of_heat,
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
 )
