@@ -83,6 +83,11 @@ def film_factors(value: Callable[[float, float], float], limit: float) -> tuple[
     return load, 1.0 / _crossing(lambda f: math.log(value(1.0, 1.0 / f) / limit))
 
 
+def of_load(value: Callable[[float, float], float], load: float) -> float:
+    """A value of a film with a factor on the load alone."""
+    return value(load, 1.0)
+
+
 def pressure_factor(value: Callable[[float, float], float], limit: float) -> float:
     """Largest factor on the load with which a pressure is allowed."""
     return _crossing(lambda f: -math.log(value(f, 1.0) / limit))

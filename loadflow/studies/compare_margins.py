@@ -28,6 +28,7 @@ from loadflow.studies.compare_factor import (
     film_factors,
     grown,
     largest_factor,
+    of_load,
     oil_told,
     pressure_factor,
     reduced_samples,
@@ -137,7 +138,7 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
                     change = f"{place}: {oil_told(stated, thinner)}"
             else:
                 factor = pressure_factor(value, allowed)
-            power = power_of_load(lambda load, value=value: value(load, 1.0), factor, WIDEST)
+            power = power_of_load(partial(of_load, value), factor, WIDEST)
             drawn = of_extreme(table[name], pick, factor, power)
             models = "journal.film", answer.replace("_", " ")
             yield Margin(

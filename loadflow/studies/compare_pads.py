@@ -22,6 +22,7 @@ from loadflow.studies.compare_factor import (
     at_time,
     film_factors,
     grown,
+    of_load,
     oil_told,
     pressure_factor,
     series_of,
@@ -75,7 +76,7 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
                 change = f"{bearing.kind} bearing in {place}: {oil_told(bearing, thinner)}"
         else:
             factor = pressure_factor(value, allowed)
-        power = power_of_load(lambda load, value=value: value(load, 1.0), factor, WIDEST)
+        power = power_of_load(partial(of_load, value), factor, WIDEST)
         drawn = of_extreme(table[name], extreme, factor, power)
         models = "thrust.film", field.replace("_", " ")
         yield Margin(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypeGuard
 
 import numpy as np
 import xarray as xr
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.thrust_curves import gives_way
-from loadflow.scene.thrust import AnyAxial
+from loadflow.scene.thrust import AnyAxial, ThrustCollar
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.thrust import tilt_in_frame
 
@@ -48,7 +49,7 @@ class PadFilms:
         return float(np.where(self.carried, self.maximum_pressure, np.inf)[counted].max(initial=0))
 
 
-def tabulated(bearing: AnyAxial) -> bool:
+def tabulated(bearing: AnyAxial) -> TypeGuard[ThrustCollar]:
     """Whether films of a bearing can be taken from tables: a collar with rigid pads."""
     if bearing.kind != "thrust":
         return False
@@ -89,7 +90,7 @@ def pad_films(
         for name in ("force", "moment")
     )
     speed, tilt = samples["speed"].values.astype(float), tilt_in_frame(samples)
-    if bearing.kind != "thrust" or not tabulated(bearing):
+    if not tabulated(bearing):
         return _on_grid(bearing, force, moment, speed, tilt)
     series = bearing.series(tilt is not None, span)
     turned = np.zeros(2) if tilt is None else tilt
@@ -116,4 +117,5 @@ def _on_grid(
         touching[k] = answer.minimum_film < bearing.contact_film
         if not touching[k]:
             values[:, k] = answer.minimum_film, answer.maximum_pressure, answer.friction_power
-    return PadFilms(*values, touching)
+    film, pressure, power = values
+    return PadFilms(film, pressure, power, touching)

@@ -36,6 +36,7 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
+from loadflow.stages.turning import SLOWEST
 from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
@@ -50,7 +51,7 @@ from loadflow.studies.compare_result import (
     missing,
     plain,
 )
-from loadflow.studies.compare_risks import events, wear
+from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -159,8 +160,8 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
             assert known & {*number["missing"]} == set()
             assert all(number["missing"].values())
     spherical = by_name(found)["two-spherical"].numbers
-    for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter",
-                "minimum_load", "row_share", "row_overload", "tilt"):  # fmt: skip
+    for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter", "tilt",
+                "minimum_load", "row_share", "row_overload", "viscosity_ratio"):  # fmt: skip
         assert 0 <= spherical[key].error < 0.5, key
     for key in ("friction_torque", "palmgren_torque", "skf_torque"):
         assert spherical[key].tolerance_low < spherical[key].value < spherical[key].tolerance_high
@@ -352,6 +353,25 @@ def test_rows_of_wear_and_standing_say_which_starts_they_rest_on():
     scene = make_scene({"name": "s", **starts})
     assert events(scene, table) == "20,000 of DLC 3.1, 10,000 of DLC 4.1 in the life"
     assert events(scene, table.isel(case=[0])) == "no start, stop or fault in this run"
+
+
+def test_time_standing_has_the_error_of_what_counts_as_standing(tmp_path):
+    """Ten samples stand; two more would if ten times as fast a shaft did."""
+    speed = np.r_[np.zeros(10), np.full(2, 5 * SLOWEST), np.ones(88)]
+    (tmp_path / "loads").mkdir()
+    series = xr.Dataset({"speed": ("time", speed)}, {"time": np.arange(100.0)})
+    series.to_netcdf(tmp_path / "loads" / "a.h5", engine="h5netcdf")
+    coords = {"dlc": ("case", ["3.1"]), "wind_speed": ("case", [8.0]), "seed": ("case", [1])}
+    table = xr.Dataset(coords={"case": ["a"], **coords})
+    ratio = xr.DataArray([[math.nan]], dims=("case", "bearing"))
+    found = dict(
+        rolling_risks(
+            make_scene({"name": "s"}), tmp_path, table.assign(bearing_viscosity_ratio=ratio),
+            np.ones(1),
+        )
+    )["standstill"]  # fmt: skip
+    assert (found.value, found.error) == (pytest.approx(10.0), pytest.approx(0.2))
+    assert "ten times" in found.note
 
 
 def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
