@@ -1,8 +1,12 @@
-"""Indicators of grooves, and of bearings that take a moment."""
+"""Indicators of grooves, of bearings that take a moment, and of all effects against pilots."""
 
+import pytest
+
+from benchmarks.ladder import indicators
+from benchmarks.ladder.physics import PAGE, kept_so_far
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.stages.effects import film, shaft
+from loadflow.stages.effects import film, film_heat, rolling, rotor, shaft
 from loadflow.stages.effects.situation import situation
 
 
@@ -31,3 +35,38 @@ def test_bearings_that_take_a_moment_may_move_loads_and_others_do_not():
     for effect in (shaft.ELASTIC, shaft.STIFFNESS):
         assert size(effect, free, free) == 0.0
         assert 0.02 < size(effect, free, taking) < 0.5
+
+
+TOUCHES = {("elastic shell", "films, iea-15mw, 24 m/s")}
+"""Where the shaft touches the ends of its bearings, which the indicator does not know."""
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return [*indicators.pairs(kept_so_far())]
+
+
+def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_measured(measured):
+    """All sizes of the page of physics: single wind speeds, scenes and pipelines."""
+    most = [*indicators.moving_most(measured)]
+    wrong = {
+        (one.effect.name, one.place): one.factor
+        for one in most
+        if not one.within and one.effect is not rotor.LATERAL  # no plan leaves it out
+    }
+    assert {*wrong} == TOUCHES
+    for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, rolling.SLICED, rotor.INFLOW):
+        assert sum(one.counts for one in most if one.effect is effect) >= 15
+
+
+def test_the_heat_of_a_film_is_indicated_within_a_factor_of_three_where_the_rotor_turns(measured):
+    """By the charts, warm against cool."""
+    ours = [one for one in measured if one.effect is film_heat.HEAT and one.turns and one.counts]
+    most = [one.factor for one in indicators.moving_most(ours)]
+    assert len(most) >= 20
+    assert min(most) > 1 / 3
+    assert max(most) < 3
+
+
+def test_the_page_of_physics_has_the_factors_of_the_indicators(measured):
+    assert indicators.indicator_table(measured) in PAGE.read_text(encoding="utf-8")

@@ -75,7 +75,7 @@ def ten_scenes() -> dict[str, Scene]:
 
 
 JOBS = ("quick_look", "dlc_1_1", "dlc_3_1_startup", "dlc_4_2_shutdown", "dlc_6_4_idling")
-"""Pipelines whose pilots are measured beside the ten scenes, with all effects that they can have."""
+"""Pipelines whose pilots are measured beside the ten scenes, with all their effects."""
 
 
 def jobs_asked() -> dict[str, Scene]:

@@ -40,6 +40,10 @@ WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
 
 
+LITTLE = 0.02
+"""Share of the time of a run that an effect may take to be kept unasked: to ask takes longer."""
+
+
 @dataclass(frozen=True)
 class Effort:
     """How much a pilot measures.
@@ -254,14 +258,14 @@ def _to_decide(
 ) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Names of the effects that are asked about, and of those among them that are kept anyway.
 
-    Kept are effects that cost nothing, and such as their indicators leave no doubt of: they are
+    Kept are effects that cost `LITTLE`, and such as their indicators leave no doubt of: they are
     not taken out. Whether all can be on together is asked all the same, but of a model that surely
     answers.
     """
     settled = {
         one.name
         for one in effects
-        if _is_needed(scene, chosen, known, one) or _costs_nothing(chosen, one, cases)
+        if _is_needed(scene, chosen, known, one) or _costs_little(chosen, one, cases)
     }
     open_ = {
         one.probed
@@ -285,8 +289,8 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
     )
 
 
-def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
-    """Whether the plan has the effect, and expects to take no less time without."""
+def _costs_little(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
+    """Whether the plan has the effect, and expects to take hardly less time without."""
     without = switched(chosen, effect, False)
     if not effect.is_on(chosen) or without is None:
         return False
@@ -296,7 +300,7 @@ def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bo
     )
     if None in with_it or None in left:
         return False
-    return sum(filter(None, with_it)) <= sum(filter(None, left))
+    return sum(filter(None, with_it)) <= (1.0 + LITTLE) * sum(filter(None, left))
 
 
 @dataclass(frozen=True)

@@ -15,8 +15,11 @@ Series = Mapping[str, Any]
 Sizes = Mapping[str, float]
 """By quantity, the share by which an answer changes if the effect is left out."""
 
-UNSURE = 2.0
-"""Indicators are good to about this factor."""
+UNSURE = 3.0
+"""An effect over its indicator, where its pilots found no more; docs/physics.md."""
+
+UNKNOWN = 1e4
+"""The same where no indicator is a bound: then an effect is never out for certain."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +43,10 @@ class Effect:
     indicator : callable
         Situation → its `Sizes` by closed forms, calibrated as its docstring says.
     larger : callable
-        Scene → the effect over its indicator, at most: 1 where that is a bound.
+        Scene → the effect over its indicator, at most: 1 where that is a bound. Of the answer that
+        moves most, with a margin over what ``python -m benchmarks.ladder.indicators`` finds.
     smaller : float
-        The indicator over the effect, at most.
+        The indicator over the effect, at most; the same.
     out : str
         What is left out, and why, for the plan.
     needs : str

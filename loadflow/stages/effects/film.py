@@ -14,14 +14,14 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floats_in_films
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.clearances import closed_ends
-from loadflow.stages.effects.effect import Effect, Series, Sizes
+from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
 from loadflow.stages.effects.situation import HOLLOW, Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
-from loadflow.wind.cases import load_case
+from loadflow.wind.cases import STANDING, load_case
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
@@ -64,8 +64,11 @@ def _motion(at: Situation) -> Sizes:
 
     A short cylindrical film answers a load that turns at Ω with 1/|1 − 2Ω/ω| of its displacement
     at rest, one that swings with the mean of both senses. `THREE_P` of the swing comes as blades
-    pass; the rest is slow. Nothing of a shaft that stands, which rests on its shell.
+    pass; the rest is slow. Nothing of a shaft that stands, which rests on its shell. All of a shaft
+    that starts or stops: at rest it has no film, where squeeze still holds one.
     """
+    if _starts_or_stops(at.scene):
+        return dict.fromkeys(ANSWERS, 1.0)
     ratio = at.turbine.rotor.blades
     left = 0.5 * (1 / abs(1 - 2 * ratio) + 1 / (1 + 2 * ratio))
     found = []
@@ -83,6 +86,26 @@ def _motion(at: Situation) -> Sizes:
 
 MEAN = 0.5
 """Change of a mean by motion over that of an extreme; docs/physics.md."""
+
+
+ANSWERS = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+
+
+def _starts_or_stops(scene: Scene) -> bool:
+    """Whether the rotor comes from standstill, or to it, in some load case."""
+    if scene.loads.source == "files":
+        return False
+    events = (load_case(dlc).events for dlc in scene.loads.dlcs)
+    return any(one != "none" and one not in STANDING for some in events for one in some)
+
+
+def no_bound_at_standstill(scene: Scene) -> float:
+    """What a film's effect is over its indicator: no one knows where the shaft also stands.
+
+    There asperities carry it, and what tilt, shell and heat do to their friction and to the
+    pressure at their edges follows from no film: up to 1,700 times what is indicated.
+    """
+    return UNSURE if always_turns(scene) else UNKNOWN
 
 
 def always_turns(scene: Scene) -> bool:
@@ -110,7 +133,8 @@ MOTION = Effect(
         else None
     ),
     indicator=_motion,
-    smaller=12.0,  # quick look: 60 % indicated of h_min, 6 % measured
+    larger=no_bound_at_standstill,
+    smaller=20.0,  # 13 where the shaft tilts, as indicated films are those of an aligned one
     out='journal.motion = "quasi-static"; the run warns where the orbit differs',
     needs='journal.motion = "transient", of a shaft that never stands or has journal.contact',
 )
@@ -185,6 +209,8 @@ TILT = Effect(
     out="no journal.tilt: half the width of the film is solved",
     needs="journal.tilt = true, with a beam as the shaft",
     cost=cost_of("tilt"),
+    # 40 where the shaft touches the ends of its bearings
+    larger=lambda scene: 60.0 if always_turns(scene) else UNKNOWN,
     rungs=("grid", "reduced"),
     own_kernels=True,
     muted=_aligned,
@@ -206,8 +232,7 @@ def _shell(at: Situation) -> Sizes:
     for name, film in at.films.items():
         above = film.maximum_pressure - at.scene.journal.at(name).edge_pressure
         share = float(np.nanmax(above * compliance / film.minimum_film))
-        answers = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
-        found.append({answer: min(0.25 * share, 1.0) for answer in answers})
+        found.append({answer: min(0.25 * share, 1.0) for answer in ANSWERS})
     return largest(found)
 
 
@@ -219,6 +244,7 @@ SHELL = Effect(
     out="no journal.shell",
     needs="a table journal.shell",
     cost=cost_of("shell"),
+    larger=no_bound_at_standstill,
     rungs=("grid", "reduced"),
     partly=(("reduced", "a local shell"),),
     own_kernels=True,
@@ -236,8 +262,7 @@ def _contact(at: Situation) -> Sizes:
         turns = at.turns
         share = float(asperity_share(film.minimum_film[turns], rough).max(initial=0.0))
         share = share if turns.any() else 1.0
-        names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
-        found.append(dict.fromkeys(names, share))
+        found.append(dict.fromkeys(ANSWERS, share))
     return largest(found)
 
 
@@ -249,6 +274,7 @@ CONTACT = Effect(
     out="the film alone carries; asperities would take load below a film parameter of 4",
     needs="a table journal.contact with the asperities of both surfaces",
     cost=cost_of("contact"),
+    larger=no_bound_at_standstill,
     rungs=("grid", "reduced"),
     own_kernels=True,
 )
@@ -344,6 +370,7 @@ SUPPLY = Effect(
     needs="a table journal.supply",
     concerns=lambda scene: scene.journal.supply is not None,
     cost=cost_of("supply"),
+    smaller=6.0,
     rungs=("grid", "reduced"),
     partly=(
         (

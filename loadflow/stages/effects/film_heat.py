@@ -14,6 +14,7 @@ from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.film import no_bound_at_standstill
 from loadflow.stages.effects.film_costs import cost_of, cost_of_heat
 from loadflow.stages.effects.film_sizes import largest, worst
 from loadflow.stages.effects.situation import Floats, Situation
@@ -138,6 +139,8 @@ HEAT = Effect(
     switched=_warmed,
     indicator=_heat,
     cost=cost_of_heat,
+    larger=no_bound_at_standstill,
+    smaller=10.0,  # 2.6 where the shaft always turns
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
 )

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import numpy as np
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.effect import UNSURE, Effect, Sizes
 from loadflow.stages.effects.situation import AIR_DENSITY, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.turbines import load_turbine
@@ -52,6 +52,8 @@ def _switch(
     cost: float,
     concerns: Callable[[Scene], bool] = _simulated,
     off: bool | None = False,
+    larger: Callable[[Scene], float] = lambda scene: UNSURE,
+    smaller: float = 4.0,
 ) -> Effect:
     """An effect that one key of the loads turns on; `cost` is the time over that without it.
 
@@ -68,6 +70,8 @@ def _switch(
         needs=f"loads.{key} = true",
         concerns=concerns,
         cost=lambda scene: cost,
+        larger=larger,
+        smaller=smaller,
     )
 
 
@@ -83,6 +87,8 @@ INFLOW = _switch(
     _inflow,
     out="no loads.dynamic_inflow: induction follows the load at once",
     cost=1.03,
+    larger=lambda scene: 5.0,  # at 24 m/s
+    smaller=60.0,  # of a start, 7 of a rotor that runs
 )
 
 
@@ -155,6 +161,7 @@ BEND_TWIST = Effect(
         else with_settings(scene, "loads", {"bend_twist": 0.5 if on else 0.0})
     ),
     indicator=lambda at: _of_loads(TURN),
+    smaller=20.0,
     out="loads.bend_twist = 0",
     needs="loads.bend_twist = 0.5",
     concerns=_simulated,
@@ -192,4 +199,5 @@ TORSION = _switch(
     out="loads.blade_torsion = false",
     cost=1.1,
     concerns=_twists,
+    larger=lambda scene: UNSURE if _runs(scene) else 15.0,  # parked in an oblique storm
 )

@@ -68,7 +68,7 @@ STIFFNESS = Effect(
     is_on=lambda scene: bool(scene.shaft.coupled),
     switched=_given,
     indicator=_moments,
-    larger=lambda scene: 25.0,  # a film beside a bearing that takes the moment gives way
+    larger=lambda scene: 40.0,  # a film beside a bearing that takes the moment gives way
     out="no support of the shaft takes its stiffness from a bearing",
     needs='`supports` of the beam with stiffness = "journal" or "rolling"',
     concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
