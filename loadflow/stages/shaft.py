@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings as told
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError, ValidityWarning
 from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
@@ -46,7 +48,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     )
     speed = series["speed"].values.astype(float)
     parts = [
-        _against_bores(shaft_on_films(scene, concept, series, tilt))
+        _with_films(scene, concept, series, tilt)
         if move_together(scene, concept) and runs(speed)
         else _suspended(scene, concept, force, moment, speed, tilt)
         for concept in scene.shaft.concepts
@@ -75,6 +77,29 @@ def _suspended(
         for name, support in supports.items()
     }
     return _against_bores(coupled_loads(concept, force, moment, bearings, tilt=tilt))
+
+
+def _with_films(scene: Scene, concept: Concept, series: xr.Dataset, tilt: float) -> xr.Dataset:
+    """A shaft in motion with its films; on rigid bearings where that path stops, with a warning."""
+    try:
+        return _against_bores(shaft_on_films(scene, concept, series, tilt))
+    except SolverError as error:
+        assert concept.beam is not None
+        told.warn(
+            f"shaft and films in motion together: {error}; the shaft lies on rigid bearings",
+            ValidityWarning,
+            stacklevel=2,
+        )
+    loads = (
+        series[name].transpose("axis", "time").values.astype(float)
+        for name in ("hub_force", "hub_moment")
+    )
+    rigid = reactions(replace(concept, beam=concept.beam.on_rigid_bearings()), *loads, tilt=tilt)
+    flags = np.zeros((rigid.sizes["bearing"], rigid.sizes["time"]), dtype=bool)
+    meaning = {"units": "1", "long_name": "whether shaft and bearings agree"}
+    none = {"solved": 0, "interpolation_error": 0.0}
+    found = rigid.assign(converged=(("bearing", "time"), flags, meaning))
+    return _against_bores(found.assign_attrs(none))
 
 
 def _worst(parts: list[xr.Dataset]) -> dict[str, float]:

@@ -37,7 +37,6 @@ from loadflow.journal.models.slow_heat import (
     COLD,
     THIN,
     cooled,
-    lighter,
     slow_states,
     standing_states,
 )
@@ -312,13 +311,12 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
         load = 0.0
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
-    light = lighter(warmth, states, 0) if warmth.on else 1.0
     return Side(
         film=film, work=model.work, lies=lies, felt=felt, turned=turned, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
-        thin=np.array([states[0, THIN], light]), warmth=warmth, states=states,
+        thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
     )  # fmt: skip
 
 
