@@ -18,7 +18,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
-from loadflow.stages.bores import follow_the_shaft, with_bores
+from loadflow.stages.bores import bores, follow_the_shaft, with_bores
 from loadflow.stages.labelling import labelled
 from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -70,8 +70,10 @@ def _suspended(
         return _against_bores(reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
+    films = any(support.stiffness == "journal" for support in supports.values())
+    turned = bores(scene) if films else {}
     bearings = {
-        name: _film(scene.journal.at(name), speed, support.takes_moment)
+        name: _film(scene.journal.at(name), speed, support.takes_moment, turned[name])
         if support.stiffness == "journal"
         else _rolling(scene, name, thrust[name], support.takes_moment)
         for name, support in supports.items()
@@ -112,12 +114,12 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
     return {name: pick.get(name, max)(values) for name, values in told.items() if values}
 
 
-def _film(options: Journal, speed: Floats, tilting: bool) -> CoupledBearing:
+def _film(options: Journal, speed: Floats, tilting: bool, bore: Floats) -> CoupledBearing:
     from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
     return CoupledBearing(
-        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False),
+        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False, bore=bore),
         state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
         idle=np.abs(speed) <= STILL * fastest,
     )
