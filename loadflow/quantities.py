@@ -156,6 +156,7 @@ FILM: dict[str, Quantity] = {
     "stiffness": Quantity("K", "N/m", "−∂F/∂e of the film; of moments and tilts in N, N m"),
     "damping": Quantity("C", "N s/m", "−∂F/∂ė of the film; of moments and tilts in N s, N m s"),
     "moment": Quantity("M", "N m", "moment of the shaft on the bearing about its middle"),
+    "restoring_moment": Quantity("M_r", "N m", "moment of films on a tilted collar, its size"),
     "tilt": Quantity("γ", "rad", "rotation of the shaft about both axes"),
     "pad_tilt": Quantity("δ", "rad", "rotation of each pad about its pivot"),
     "shell_deformation": Quantity("", "m", "largest growth of the gap by the elastic shell"),

@@ -134,6 +134,12 @@ def samples_of_run(done):
     return open_cube(part)["N2"].to_dataset().load()
 
 
+def shaft_tilt(done):
+    """Rotation of the shaft about both axes across it, (2, n), rad."""
+    part = open_cube(next((done.path / "shaft").glob("*.h5"))).load()
+    return part["tilt"].sel(bearing="N2", axis=["y", "z"]).transpose("axis", "time").values
+
+
 def test_a_collar_that_tilts_warms_and_moves_follows_the_whole_series(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", steps=200)
     scene = of_bent_shaft(cube, "moving", motion="transient", tilt=True)
@@ -151,6 +157,12 @@ def test_a_collar_that_tilts_warms_and_moves_follows_the_whole_series(tmp_path):
     assert samples["temperature"].values[0] in table["largest_temperature"].values
     aligned = run(of_bent_shaft(cube, "still", rung="curve"), out=tmp_path / "runs", report=False)
     assert (table["smallest_film"] < aligned.tree["thrust"]["smallest_film"]).all()
+    largest = float(samples["restoring_moment"].max())
+    assert largest > 0.0
+    assert np.isclose(table["largest_restoring_moment"].values, largest, rtol=1e-6).any()
+    slope = np.hypot(*shaft_tilt(done)) @ samples["restoring_moment"].values
+    slope /= (np.hypot(*shaft_tilt(done)) ** 2).sum()
+    assert samples.attrs["tilting_stiffness"] == pytest.approx(slope, rel=1e-3)
 
 
 @pytest.mark.slow

@@ -43,10 +43,19 @@ class CollarPath(CollarFilms):
     ----------
     front_temperature, back_temperature : array (n,)
         Of the films of each row, K; NaN without heat.
+    moment : array (n, 2)
+        What the tilted collar applies to both rows about both axes, N m, of films at rest at their
+        gaps; the shaft gets it back.
     """
 
     front_temperature: Array
     back_temperature: Array
+    moment: Array
+
+    @property
+    def restoring_moment(self) -> Array:
+        """Its size (n,), N m."""
+        return np.hypot(*self.moment.T)
 
     @property
     def temperature(self) -> Array:
@@ -145,7 +154,7 @@ class CollarSeries:
         equilibrium of the first load, each by Newton from where the last ones lead. A film carries
         no tension. Where the surfaces touch, the film stays as thin as the table is. Each row has
         the one temperature of the mean friction and flow of 64 equilibria of the series. The tilt
-        is followed without what its own rate squeezes, and its moment does not act on the shaft.
+        is followed without what its own rate squeezes; its moment is told, and does not act on it.
 
         Parameters
         ----------
@@ -319,6 +328,7 @@ class CollarSeries:
             interpolation_error=error,
             front_temperature=warm[0] * shown,
             back_temperature=warm[1] * shown,
+            moment=(rows[0].moment - rows[1].moment) * shown[:, None],
         )
 
 

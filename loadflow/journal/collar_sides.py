@@ -10,7 +10,16 @@ from numpy.typing import NDArray
 
 from loadflow.journal.heat import HOTTEST
 from loadflow.journal.pad_heat import PadHeat
-from loadflow.journal.row_table import DAMPING, FLOW, FORCE, MOST, SIDE_FLOW, TORQUE, RowTable
+from loadflow.journal.row_table import (
+    DAMPING,
+    FLOW,
+    FORCE,
+    MOMENT_ACROSS,
+    MOST,
+    SIDE_FLOW,
+    TORQUE,
+    RowTable,
+)
 
 Array = NDArray[np.float64]
 
@@ -22,7 +31,10 @@ _SETTLED = 1e-10
 
 
 class Carried(NamedTuple):
-    """What a row does at rest (n,): N, N s/m, N m, m³/s, K, Pa s."""
+    """What a row does at rest (n,): N, N s/m, N m, m³/s, K, Pa s, N m.
+
+    The moment (n, 2) is that of the collar on its pads, about both axes.
+    """
 
     force: Array
     damping: Array
@@ -31,6 +43,7 @@ class Carried(NamedTuple):
     side_flow: Array
     temperature: Array
     viscosity: Array
+    moment: Array
 
 
 @dataclass(frozen=True)
@@ -86,7 +99,14 @@ class Side:
             np.abs(speed) * sums[SIDE_FLOW],
             warm,
             viscosity,
+            self._moment(drag * sums[MOMENT_ACROSS:], some),
         )
+
+    def _moment(self, moment: Array, some: NDArray[np.int64] | slice) -> Array:
+        """Moments (n, 2) about the axes, of those (2, n) about the direction of the tilt."""
+        cos, sin = np.cos(self.direction[some]), np.sin(self.direction[some])
+        across, along = moment
+        return np.column_stack([cos * across - sin * along, sin * across + cos * along])
 
     def _warmth(self, sums: Array, speed: Array) -> tuple[Array, Array]:
         """Temperature, K, and viscosity of films: T = T_in + k η(T), by Newton from the cold.

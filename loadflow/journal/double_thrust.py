@@ -110,6 +110,16 @@ class DoubleThrustResult(Shows):
     _table: ClassVar[Table] = _BOTH
 
     @property
+    def moment(self) -> Array:
+        """What the tilted collar applies to both rows about both axes, (2,), N m."""
+        return np.asarray(self.front.moment - self.back.moment)
+
+    @property
+    def restoring_moment(self) -> float:
+        """Its size, N m: the shaft gets it back, against its tilt where that is small."""
+        return float(np.hypot(*self.moment))
+
+    @property
     def temperature(self) -> float:
         """Of the films of the warmer row, K; NaN without heat."""
         rows = self.front, self.back

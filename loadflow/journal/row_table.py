@@ -38,10 +38,13 @@ _PROBES = 6  # films that are solved on the grid to see how far the table is off
 _SHARE = 0.1  # of the force, of the squeeze that tells what it does to the largest pressure
 _RADIANS = 4  # directions of a row within its pitch
 
-FORCE, DAMPING, TORQUE, FLOW, SIDE_FLOW = range(5)
-"""Rows of sums over the pads: force and friction torque over η ω, damping over η, flows over ω."""
-_POWERS = np.array([2.0, 3.0, 1.0, -1.0, -1.0])  # of the gap, with which they are nearly constant
-_SUMS, _PRESSURE, _FILM = 5, 5, 6
+FORCE, DAMPING, TORQUE, FLOW, SIDE_FLOW, MOMENT_ACROSS, MOMENT_ALONG = range(7)
+"""Rows of sums over the pads: force and friction torque over η ω, damping over η, flows over ω;
+moments of the runner on the pads over η ω, about where the gap grows most and a right angle on."""
+_POWERS = np.array([2.0, 3.0, 1.0, -1.0, -1.0, 2.0, 2.0])
+"""Of the gap, with which they are nearly constant."""
+_SUMS, _PRESSURE, _FILM = 7, 7, 8
+_VALUES = 9  # of a pad: its sums, largest pressure and least film
 
 
 @dataclass(frozen=True)
@@ -91,7 +94,7 @@ class RowTable:
             )
 
     def sums(self, gap: Array, slope: Array, direction: Array) -> Array:
-        """Sums over the pads (5, n), per unit of viscosity and speed.
+        """Sums over the pads (7, n), per unit of viscosity and speed.
 
         Parameters
         ----------
@@ -240,7 +243,7 @@ def _waves(angle: Array, count: int) -> Array:
 
 @lru_cache(maxsize=16)
 def _nodes_of(table: RowTable) -> Array:
-    """One pad at all gaps, tilts and directions, (gaps, tilts, directions, 7), times local gaps.
+    """One pad at all gaps, tilts and directions, (gaps, tilts, directions, 9), times local gaps.
 
     Raises
     ------
@@ -251,7 +254,7 @@ def _nodes_of(table: RowTable) -> Array:
     shares = -np.expm1(-nodes) if table.tilts else np.zeros(1)
     directions = np.arange(_DIRECTIONS) * 2.0 * math.pi / _DIRECTIONS
     film = _film_of(table)
-    found = np.empty((_GAPS, shares.size, directions.size if table.tilts else 1, 7))
+    found = np.empty((_GAPS, shares.size, directions.size if table.tilts else 1, _VALUES))
     if table.tilts and table.follows:
         return _following(table, shares, directions)
     for i, gap in enumerate(table.gaps.tolist()):
@@ -259,7 +262,7 @@ def _nodes_of(table: RowTable) -> Array:
             slope = share * gap / table.row.outer_radius
             for k, angle in enumerate(directions.tolist() if table.tilts else [0.0]):
                 if k and slope == 0.0:
-                    found[i, j, k] = found[i, j, 0]
+                    found[i, j, k] = _turned(found[i, j, 0], angle)
                     continue
                 at = np.array([gap]), np.array([slope]), np.array([angle])
                 found[i, j, k] = _node(table.row, film, gap, slope, angle, table.local(*at)[0])
@@ -278,11 +281,22 @@ def _following(table: RowTable, shares: Array, directions: Array) -> Array:
         table, thinnest=(1.0 - MOST) * table.thinnest, thickest=2.0 * table.thickest, tilts=False
     )
     splines = _splines_of(aligned)
-    values = np.stack([splines[q](np.log(over))[..., 0] for q in range(7)], axis=-1)
+    values = np.stack([splines[q](np.log(over))[..., 0] for q in range(_VALUES)], axis=-1)
     slope = shares[:, None] * gap / row.outer_radius
     ratio = table.local(gap, slope, directions) / over
     powers = np.array([*_POWERS, 2.0, -1.0])
-    return np.asarray(values * ratio[..., None] ** powers)
+    values = values * ratio[..., None] ** powers
+    arm = radius * row.outer_radius * values[..., FORCE]
+    values[..., MOMENT_ACROSS], values[..., MOMENT_ALONG] = -arm * np.sin(at), arm * np.cos(at)
+    return np.asarray(values)
+
+
+def _turned(node: Array, angle: float) -> Array:
+    """Values of a pad at `angle` that has an aligned runner, from those of one at 0."""
+    turned, cos, sin = node.copy(), math.cos(angle), math.sin(angle)
+    turned[MOMENT_ACROSS] = cos * node[MOMENT_ACROSS] - sin * node[MOMENT_ALONG]
+    turned[MOMENT_ALONG] = sin * node[MOMENT_ACROSS] + cos * node[MOMENT_ALONG]
+    return turned
 
 
 def _node(
@@ -298,7 +312,7 @@ def _node(
         raise SolverError(f"gap {gap:.3g} m: the film carries no load in this sense of rotation")
     sums = state.force, state.damping, abs(state.friction_torque), state.flow
     side = float(np.sum(state.side_flow))
-    scaled = np.array([*sums, side]) * local**_POWERS
+    scaled = np.array([*sums, side, *state.moment]) * local**_POWERS
     return np.array([*scaled, state.maximum_pressure * local**2, state.minimum_film / local])
 
 
@@ -351,6 +365,7 @@ def _sums_of(table: RowTable) -> Array:
     logs, pads = np.log(table.gaps), row.pads
     if not table.tilts:
         values = np.stack([splines[q](logs)[:, :1] for q in range(_SUMS)], axis=-1)
+        values[..., MOMENT_ACROSS:] = 0.0  # of pads all round
         spline = CubicSpline(logs, (pads * values).reshape(logs.size, -1))
         return _cubics(spline, (1, 1, _SUMS)).transpose(4, 0, 1, 2, 3).copy()
     nodes = 0.5 * (1.0 + chebyshev.chebpts2(_TILTS)) * _crowded(MOST)

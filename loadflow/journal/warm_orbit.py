@@ -46,6 +46,9 @@ MILDEST = 4
 BALANCED = 2e-3
 """What is left of the heat balance of that mean, K: other samples move it by more."""
 
+ABOUT = 0.2
+"""The same of few of them, from whose temperature that of all is sought."""
+
 SLOW = 0.01
 """Share of the fastest speed below which a shaft warms nothing: friction goes with its square."""
 
@@ -137,14 +140,16 @@ def series_temperature(
     some = np.roll(some, -int(severity.argmin()))  # each starts from the one before, so mildly
     limits = Limits(1e-10, 60, strict=False, refine=False)
 
-    def mean(some: NDArray[np.int64], limits: Limits, start: float | None = None) -> dict[str, Any]:
+    def mean(
+        some: NDArray[np.int64], limits: Limits, start: float | None = None, about: bool = False
+    ) -> dict[str, Any]:
         given = model, bearing, film, force[some], speed[some], line.at(some), limits
-        return _of_mean(*given, start)
+        return _of_mean(*given, start, ABOUT if about else BALANCED)
 
     start = None
     if some.size > 2 * FEW:  # all of them are asked at few temperatures
         few = some[np.linspace(0, some.size - 1, FEW).round().astype(int)]  # the mildest first
-        found = mean(few, limits)
+        found = mean(few, limits, about=True)
         _check_warmth(found, SURELY)
         start = float(np.nanmax(found["temperature"])) if found["converged"].any() else None
     if start is not None or some.size <= 2 * FEW:
@@ -185,6 +190,7 @@ def _of_mean(
     line: Line,
     limits: Limits,
     start: float | None,
+    tolerance: float,
 ) -> dict[str, Any]:
     """Films at the temperature of their mean friction and flow, first tried at `start`, K."""
 
@@ -199,7 +205,7 @@ def _of_mean(
 
     at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
     near = None if start is None else np.array([start])
-    return warm_film(at_rest, force, speed, film, shares, BALANCED, strict=False, start=near)
+    return warm_film(at_rest, force, speed, film, shares, tolerance, strict=False, start=near)
 
 
 def _check_warmth(found: dict[str, Any], least: float = BALANCED) -> None:

@@ -38,6 +38,12 @@ EXTREMES = {
     "largest_sommerfeld_number": ("sommerfeld_number", np.nanargmax, "1", "largest So"),
     "largest_load": ("load", np.nanargmax, "N", "largest radial load"),
     "largest_moment": ("moment_load", np.nanargmax, "N m", "largest moment across the shaft"),
+    "largest_restoring_moment": (
+        "restoring_moment",
+        np.nanargmax,
+        "N m",
+        "largest moment of films on a tilted collar",
+    ),
     "largest_axial_load": ("axial_load", np.nanargmax, "N", "largest force along the shaft"),
     "largest_temperature": ("temperature", np.nanargmax, "K", "largest effective temperature"),
 }

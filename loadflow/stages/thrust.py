@@ -40,6 +40,9 @@ KEPT = table(
 WARM = table("temperature")
 """What is kept too of collars with heat: that of the warmer row."""
 
+TILTED = table("restoring_moment")
+"""What is kept too of collars that are tilted: no shaft feels it, but a support may state it."""
+
 _LOADS = {
     "load": ("N", "load that presses on the films"),
     "axial_load": ("N", "force along the shaft, its size"),
@@ -185,6 +188,7 @@ def solved(
     speed = samples["speed"].values.astype(float)
     tilt = tilt_in_frame(samples)
     kept = KEPT | (WARM if bearing.kind == "thrust" and bearing.heat is not None else {})
+    kept |= {} if tilt is None else TILTED
     found = {name: np.full(speed.size, np.nan) for name in (*kept, "friction_torque")}
     found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
     touching, why, open_ = np.zeros(speed.size, bool), "", [*range(speed.size)]
@@ -228,9 +232,18 @@ def solved(
         "radius": bearing.radius,
         "boundary_friction": bearing.boundary_friction,
     }
+    if tilt is not None:
+        about["tilting_stiffness"] = _tilting_stiffness(found["restoring_moment"], tilt)
     return given.assign(of_samples(found, kept)).assign(
         of_samples(loads | {"friction_torque": found["friction_torque"]}, _LOADS)
     ).assign_attrs(about)  # fmt: skip
+
+
+def _tilting_stiffness(moment: np.ndarray, tilt: np.ndarray) -> float:
+    """Moment over tilt of all samples, by least squares, N m/rad; 0 of films that never tilt."""
+    slope = np.where(np.isnan(moment), 0.0, np.hypot(*tilt.T))
+    square = float((slope**2).sum())
+    return float(np.nansum(moment * slope)) / square if square > 0.0 else 0.0
 
 
 def tilt_in_frame(samples: xr.Dataset) -> np.ndarray | None:

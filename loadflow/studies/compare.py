@@ -32,6 +32,7 @@ from loadflow.studies.compare_numbers import (
     error_of,
     extreme,
     lifetime_mean,
+    of_one_seed,
     seeds_of,
     shares_of,
 )
@@ -85,7 +86,7 @@ def compared(
         conclusion=conclusion(order, failures),
         candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
-        shaft=drawn(scene),
+        shaft=drawn(scene, {part["place"] for one in order for part in one.bearings}),
         failures=failures,
         without_place=without_place,
     )
@@ -104,6 +105,7 @@ def judged(run: Finished, folder: Path) -> Judged:
     verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
     margin = margin_of(run.scene, run.folder, run.tables, verdicts)
     numbers = without(run.rooms) | dict(_numbers(run, verdicts, margin))
+    numbers = {key: of_one_seed(run, number) for key, number in numbers.items()}
     return Judged(
         name=run.name,
         title=run.title or run.name,

@@ -149,11 +149,12 @@ def series_of(folder: Path, case: str, place: str) -> xr.Dataset:
     """What acts on a bearing through a case, and how the shaft lies in it.
 
     `time`, `speed` (sample), `force`, `moment` and, of a shaft that bends, `tilt`, `curvature`
-    (sample, axis), in the frame of the cube.
+    (sample, axis), and `alignment` (axis) of a bore that follows it, in the frame of the cube.
     """
     speed = read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"]
-    shaft = read_variables(folder / "shaft" / f"{case}.h5", LOADS + LINE).sel(bearing=place)
-    known = [name for name in LOADS + LINE if name in shaft and bool(shaft[name].notnull().all())]
+    names = (*LOADS, *LINE, "alignment")
+    shaft = read_variables(folder / "shaft" / f"{case}.h5", names).sel(bearing=place)
+    known = [name for name in names if name in shaft and bool(shaft[name].notnull().all())]
     series = shaft[known].assign(speed=("time", speed.values)).rename(time="sample")
     time = speed["time"].values.astype(float)
     return series.drop_vars("sample", errors="ignore").assign(time=("sample", time))

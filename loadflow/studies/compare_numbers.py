@@ -100,6 +100,19 @@ def seeds_of(
     return interval(Groups.of(table), known)
 
 
+def of_one_seed(run: Finished, number: Number) -> Number:
+    """A number without its interval where it is of a load case with one seed alone.
+
+    Drawn anew, that seed is itself: an interval without width would look like a certain number.
+    """
+    if not number.case or number.low != number.high:
+        return number
+    table = next(one for one in run.tables.values() if "case" in one.coords and "dlc" in one)
+    cases = table["case"].values.tolist()
+    alone = {cases[int(group[0])] for group in Groups.of(table).members if group.size == 1}
+    return replace(number, low=math.nan, high=math.nan) if number.case in alone else number
+
+
 def lifetime_mean(
     run: Finished,
     values: np.ndarray,

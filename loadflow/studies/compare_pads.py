@@ -14,6 +14,7 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import follows, lies
 from loadflow.studies.compare_factor import (
     NEVER,
@@ -58,7 +59,7 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
             continue
         worst = int(np.nanargmax(table[name].values == extreme(table[name].values)))
         case, time = str(table["case"].values[worst]), float(table[f"{name}_time"].values[worst])
-        samples = series_of(folder, case, place)
+        samples = against_bore(series_of(folder, case, place))
         samples = samples if moving else at_time(samples, time)
         if not lies(scene, bearing, samples):
             samples = samples.drop_vars("tilt", errors="ignore")

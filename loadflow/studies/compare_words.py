@@ -11,7 +11,7 @@ import xarray as xr
 
 from loadflow.data import evidence
 from loadflow.quantities import CELSIUS
-from loadflow.scene.places import WRITTEN
+from loadflow.rolling import RollerBearing, RollingBearing
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_factor import oil_told
 from loadflow.studies.compare_result import UNCARRIED, Judged
@@ -118,6 +118,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
     return {
         "Loads": source,
         "Suspension": concepts,
+        **_beams(scene),
         "Load cases": f"{table.sizes['case']}, {told} seeds at each wind speed",
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
@@ -130,8 +131,22 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
     }
 
 
-def drawn(scene: Scene) -> list[dict[str, Any]]:
-    """Suspensions of the shaft, with what a sketch needs."""
+def _beams(scene: Scene) -> dict[str, str]:
+    """Sections of each shaft that bends, in words; nothing of a rigid one."""
+    told = {
+        name: ", ".join(
+            f"{1e3 * one.outer_diameter:.0f} mm outside, {1e3 * one.inner_diameter:.0f} mm inside"
+            for one in dict.fromkeys(concept.beam.sections)
+        )
+        for name, concept in scene.shaft.suspensions.items()
+        if concept.beam is not None
+    }
+    some = (f"{name.replace('_', ' ')}: {sections}" for name, sections in told.items())
+    return {"Shaft that bends": "; ".join(some)} if told else {}
+
+
+def drawn(scene: Scene, places: Collection[str] | None = None) -> list[dict[str, Any]]:
+    """Suspensions of the shaft, or those with a bearing at `places`, with what a sketch needs."""
     return [
         {
             "name": name,
@@ -142,6 +157,7 @@ def drawn(scene: Scene) -> list[dict[str, Any]]:
             "masses": [[float(at), float(mass)] for at, mass in concept.masses if mass > 0],
         }
         for name, concept in scene.shaft.suspensions.items()
+        if places is None or {*concept.bearings} & {*places}
     ]
 
 
@@ -169,7 +185,7 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
             found.append(
                 {
                     "place": place,
-                    "kind": WRITTEN.get(bearing.kind, bearing.kind),
+                    "kind": _kind_in_words(bearing),
                     "measures": f"D_pw {1e3 * bearing.pitch_diameter:.0f} mm, "
                     f"C {bearing.rated_capacity / 1e3:.0f} kN, "
                     f"C₀ {bearing.static_capacity / 1e3:.0f} kN"
@@ -177,6 +193,17 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                 }
             )
     return found
+
+
+def _kind_in_words(bearing: RollingBearing) -> str:
+    """Kind of a rolling bearing: rollers with a contact angle are tapered."""
+    words, rows = bearing.words, getattr(bearing, "rows", 1)
+    if isinstance(bearing, RollerBearing):
+        words = f"{bearing.catalogue_kind} {words}"
+    return f"{_ROWS[rows]} {words}" if rows in _ROWS else words
+
+
+_ROWS = {2: "double-row", 4: "four-row"}
 
 
 _BEHIND = {

@@ -19,6 +19,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
 from loadflow.scene.tolerances import ALIGNMENT, Toleranced
+from loadflow.stages.bores import against_bore
 from loadflow.stages.comparisons import THINNING
 from loadflow.stages.rolling_at_work import as_stated, rest
 from loadflow.studies.pad_films import span_of
@@ -319,8 +320,15 @@ def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
         tilt, bend = (samples[name] if lying else none for name in ("tilt", "curvature"))
         extra = xr.DataArray([0.0, *way], dims="axis")
         thrust = built.candidate.thrust
-        held = samples["tilt"] if thrust and thrust.tilt and "tilt" in samples else none
-        groups[place] = samples.assign(tilt=tilt + extra, curvature=bend, pad_tilt=held + extra)
+        held = (
+            against_bore(samples)["tilt"] if thrust and thrust.tilt and "tilt" in samples else none
+        )
+        bore = xr.zeros_like(extra)  # of a bore that follows the shaft as it lies without the angle
+        if lying and "alignment" in samples:
+            bore = samples["alignment"]
+        groups[place] = samples.assign(
+            tilt=tilt + extra, curvature=bend, alignment=bore, pad_tilt=held + extra
+        )
     return _tree(built.spectrum, groups)
 
 

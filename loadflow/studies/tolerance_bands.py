@@ -17,6 +17,7 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import AnyAxial, Thrust
+from loadflow.stages.bores import against_bore
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
@@ -330,9 +331,10 @@ def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> 
         order = turning[lasting][np.argsort(pressed[lasting])]
         spread = order[np.linspace(0, order.size - 1, PADS).astype(int)]
         turning = np.unique([*spread, turning[np.argmax(pressed)]])
-    tilt = samples.get("pad_tilt", samples.get("tilt") if thrust.tilt else None)
+    held = against_bore(samples)
+    tilt = samples.get("pad_tilt", held.get("tilt") if thrust.tilt else None)
     some = samples.drop_vars(("tilt", "pad_tilt"), errors="ignore")
-    if tilt is not None and bearing.kind == "thrust":
+    if tilt is not None and bearing.kind == "thrust" and not bearing.self_aligning:
         some = some.assign(tilt=tilt)
     return some.isel(sample=turning)
 

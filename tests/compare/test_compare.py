@@ -11,6 +11,7 @@ import subprocess
 from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -20,8 +21,8 @@ from synthetic import cube_file
 from loadflow.cli import main
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
-from loadflow.planning.accuracy import expected_errors
-from loadflow.planning.effects import EffectVerdict
+from loadflow.planning.accuracy import errors_beside, expected_errors
+from loadflow.planning.effects import EffectVerdict, Estimates
 from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
 from loadflow.report.compare_page import _row, write_comparison
@@ -40,6 +41,7 @@ from loadflow.stages.turning import SLOWEST
 from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
+from loadflow.studies.compare_numbers import of_one_seed
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import (
@@ -53,7 +55,7 @@ from loadflow.studies.compare_result import (
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
-from loadflow.studies.compare_words import conclusion
+from loadflow.studies.compare_words import conclusion, drawn
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
 
@@ -372,6 +374,41 @@ def test_time_standing_has_the_error_of_what_counts_as_standing(tmp_path):
     )["standstill"]  # fmt: skip
     assert (found.value, found.error) == (pytest.approx(10.0), pytest.approx(0.2))
     assert "ten times" in found.note
+
+
+@pytest.mark.parametrize("rung", ["tables", "flap", "tower"])
+def test_the_error_of_kappa_is_that_of_the_slowest_speed_on_the_models_of_the_rotor(rung):
+    loads = {"wind_speeds": [8.0], "rung": rung}
+    scene = make_scene(
+        {"name": "s", "bearings": ["tapered-pair"], "results": ["rolling.loads"], "loads": loads}
+    )
+    found = errors_beside(scene, Estimates())["rolling.friction"]["viscosity ratio"]
+    known = [ladder()["wind"]["kaimal, 11x48"], ladder()["loads"][rung]]
+    speed = sum(one["errors"].get("slowest speed", {"max": 0.0})["max"] for one in known)
+    few = ladder()["comparison"]["rollers"]["errors"]["viscosity ratio"]["max"]
+    assert found == pytest.approx(0.83 * speed + few, rel=1e-9)
+    assert found < 0.02
+
+
+def test_an_extreme_of_one_seed_has_no_interval_without_width():
+    coords = {"case": ["a", "b", "c"], "wind_speed": ("case", [12.0, 12.0, 24.0])}
+    table = xr.Dataset({"dlc": ("case", ["1.1"] * 3)}, coords)
+    run = SimpleNamespace(tables={"journal": table})
+    sure = Number(2.0, "µm", 2.0, 2.0, case="c")
+    assert math.isnan(of_one_seed(run, sure).low)
+    assert "one seed" in missing("minimum_film", of_one_seed(run, sure))["seeds"]
+    for kept in (replace(sure, case="a"), replace(sure, low=1.0), replace(sure, case="")):
+        assert of_one_seed(run, kept) == kept
+
+
+def test_what_stands_at_a_place_and_which_shaft_bends_is_told_in_words(found):
+    told = found.comparison.as_dict()
+    kinds = {one["name"]: [part["kind"] for part in one["bearings"]] for one in told["candidates"]}
+    assert kinds["two-spherical"] == ["double-row spherical roller bearing"] * 2
+    assert kinds["double-row-tapered"] == ["double-row tapered roller bearing"]
+    scene = make_scene({"name": "s", "shaft": {"two_point": {}, "moment": {}}})
+    assert [one["name"] for one in drawn(scene, ["M"])] == ["moment"]
+    assert len(drawn(scene)) == 2
 
 
 def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
@@ -762,10 +799,11 @@ def test_a_pilot_of_one_candidate_leaves_the_loads_of_all_as_they_are(tmp_path):
     own = candidate_scene(loads.scene, "one", scene.candidates["journal-cylindrical"], loads.steps)
     huge = {"bearing load max": 0.9, "bearing force DEL": 0.9, "minimum film": 0.9}
     verdict = EffectVerdict(sizes=dict.fromkeys(("dynamic inflow", "dynamic stall"), huge))
-    digests = {step.name: step.digest for step in loads.plan.steps}
+    digests = {step.name: step.digest for step in make_plan(own).steps}  # the bores are its own
     for step in make_plan(own, verdict=verdict).steps:
         if step.name in SHARED:
             assert step.digest == digests[step.name]
+    assert digests["loads"] == {step.name: step.digest for step in loads.plan.steps}["loads"]
     open_ones = candidate_scene(scene, "one", scene.candidates["journal-cylindrical"], loads.steps)
     first, other = (make_plan(open_ones, verdict=one).steps[0] for one in (None, verdict))
     assert first.digest != other.digest  # where they are not settled, it does

@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import re
 import shutil
 import subprocess
 import tomllib
@@ -260,6 +261,9 @@ class Page(HTMLParser):
 
 def test_the_page_says_the_conclusion_and_draws_front_and_map(found):
     text = found.page.read_text(encoding="utf-8")
+    runs = re.findall(r"<tr><td>(as given|best-[0-9a-f]{8})</td>(?:<td>[\d.]+</td>){3}", text)
+    assert runs[-1] == "as given"
+    assert len(runs) == len(found.designs.judged) > 1
     assert found.designs.conclusion.split(",")[0] in text
     page = Page()
     page.feed(text)

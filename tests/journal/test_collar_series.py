@@ -46,6 +46,23 @@ def test_films_around_a_tilted_collar_are_those_of_the_grid(tilted):
         assert found.minimum_film[k] == pytest.approx(exact.minimum_film, rel=5e-3)
         assert found.maximum_pressure[k] == pytest.approx(exact.maximum_pressure, rel=0.03)
         assert found.friction_power[k] == pytest.approx(exact.friction_power, rel=3e-3)
+        off = np.hypot(*(found.moment[k] - exact.moment))
+        assert (
+            off
+            < 0.02 * exact.restoring_moment
+            == pytest.approx(0.02 * found.restoring_moment[k], rel=0.02)
+        )
+
+
+def test_the_moment_of_a_tilted_collar_is_the_slope_of_its_films():
+    """For a small tilt the stiffness of both rows against it; it rights the collar."""
+    still = COLLAR.equilibrium(9e5, 1.2, FILM)
+    tilt = np.array([1e-7, 0.0])
+    found = COLLAR.equilibrium(9e5, 1.2, FILM, tilt=tilt)
+    stiffness = sum(row.stiffness_matrix for row in (still.front, still.back))[1:, 1:]
+    np.testing.assert_allclose(found.moment, stiffness @ tilt, rtol=1e-3)
+    assert found.moment @ tilt > 0.0
+    assert still.restoring_moment < 1e-9 * found.restoring_moment
 
 
 def test_a_temperature_that_is_not_found_is_no_answer(monkeypatch):

@@ -13,10 +13,13 @@ import pytest
 
 from benchmarks.robustness import families
 from loadflow.errors import SolverError
-from loadflow.journal import Lubricant
+from loadflow.journal import Contact, Guembel, JournalBearing, Lubricant
 from loadflow.journal.models import grid
+from loadflow.journal.solvers import estimate
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
+from loadflow.journal.warm_orbit import FEW
+from loadflow.tribology import AsperityContact
 
 
 def drawn(family: str, number: int) -> Any:
@@ -201,6 +204,41 @@ def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperature
     with pytest.raises(SolverError, match=r"no film at any temperature.*touches the elastic shell"):
         solve()
     assert len(asked) <= 8
+
+
+def test_a_series_too_hot_for_any_balance_says_so_after_few_loads(monkeypatch):
+    """Number 194: asperities in a thick shell, whose films take long; of 25 loads."""
+    asked = asked_of_the_grid(monkeypatch)
+    with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K; the mean friction"):
+        drawn("composed", 194)[1]()
+    assert sum(len(arguments[2]) for arguments in asked) <= 3 * FEW
+
+
+def test_a_series_without_a_film_says_why_its_mildest_load_has_none():
+    with pytest.raises(SolverError, match=r"its mildest loads.*touches the elastic shell"):
+        drawn("composed", 215)[1]()
+
+
+def test_a_film_whose_asperities_rub_more_the_warmer_it_is_has_a_balance():
+    """Number 14: what it warms by falls by a third of what it is warmed, not by all of it."""
+    answer = drawn("composed", 14)[1]()
+    assert answer.heat_residual < 1e-6
+    assert answer.heat_iterations < 20
+
+
+def test_asperities_that_carry_nothing_are_not_asked_where_they_would(monkeypatch):
+    asked: list[Any] = []
+    search = estimate._until_pressed
+    monkeypatch.setattr(estimate, "_until_pressed", lambda *a: asked.append(a) or search(*a))
+    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
+    rough = Contact(AsperityContact(roughness=2e-7, contact_modulus=115e9, factor=1e-3))
+    oil, words = Lubricant(0.03), {"cavitation": Guembel(), "grid": (48, 8), "contact": rough}
+    mild = bearing.equilibrium((2e3, 0.0), 20.0, oil, **words)
+    assert mild.contact_share == 0.0
+    assert not asked
+    slow = bearing.equilibrium((2e4, 0.0), 1e-3, oil, **words)
+    assert slow.contact_share > 0.5
+    assert asked
 
 
 def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
