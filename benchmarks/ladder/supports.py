@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from benchmarks.common import arguments, seconds_of
+from benchmarks.common import arguments, seconds_of, timed
 from benchmarks.ladder.measuring import (
     Bench,
     Entry,
@@ -49,19 +49,31 @@ EXACT = 300
 """Samples solved to tell the error of the others."""
 
 
+IN_MOTION = {"motion": "transient", "rung": "reduced"}
+
+FINER = 2
+"""Times the cells around of the films that tell the error of a shaft in films in motion."""
+
+
 def scene_of(
-    bench: Bench, supports: list[dict[str, Any]], concept: str = "two_point", rings: str = "rigid"
+    bench: Bench,
+    supports: list[dict[str, Any]],
+    concept: str = "two_point",
+    rings: str = "rigid",
+    **film: Any,
 ) -> Scene:
     """The scene of the benchmark, a beam on `supports`; its ball bearing stands where it may."""
     whole = bench.scene.model_dump()
     names = {"two_point": ("N", "N2"), "three_point": ("N", "G")}[concept]
+    shared = {"tilt": True} | film
+    others = {name: one | shared for name, one in whole["journal"]["own"].items()}
     place = next((n for n, s in zip(names, supports) if s.get("stiffness") == "rolling"), names[0])
     return make_scene(
         {
             "name": "supports",
             "results": ["loads.statistics"],
             "shaft": {concept: {"beam": {"sections": [SECTION], "supports": supports}}},
-            "journal": whole["journal"] | {"tilt": True, "bearings": list(names)},
+            "journal": whole["journal"] | shared | {"bearings": list(names), "own": others},
             "rolling": {"bearing": place, "rings": rings, "geometry": whole["rolling"]["geometry"]},
         }
     )
@@ -113,7 +125,36 @@ def measure_supports(bench: Bench) -> Rungs:
         scene = scene_of(bench, supports)
         seconds = seconds_of(lambda s=scene: shaft.bearing_loads(s, case, parts), 1)  # type: ignore[misc]
         rungs[rung_key(scene, "shaft")] = _entry(scene, case, parts, seconds)
+    scene = scene_of(bench, [OWN["journal, tilting"]] * 2, **IN_MOTION)
+    rungs[rung_key(scene, "shaft")] = _in_motion(bench, case, parts)
     return rungs
+
+
+def _in_motion(bench: Bench, case: Case, parts: dict[str, xr.Dataset]) -> Entry:
+    """The shaft in films in motion: its own time, as the films are those of the run."""
+    own = [OWN["journal, tilting"]] * 2
+    around, across = bench.scene.journal.grid
+    finer = scene_of(bench, own, **IN_MOTION, grid=(FINER * around, across))
+    scene = scene_of(bench, own, **IN_MOTION)
+    truth = shaft.bearing_loads(finer, case, parts)
+    (found, films), (_, alone) = (
+        timed(lambda: shaft.bearing_loads(scene, case, parts)) for _ in range(2)
+    )
+    steps, errors = found.sizes["time"], Errors()
+    for quantity, name in (("bearing load", "force"), ("tilt", "tilt")):
+        ours, theirs = found[name].values, truth[name].values
+        worst = int(np.argmax(abs(ours - theirs).max(axis=(0, 1))))
+        where = f"{label(case)}, t = {found['time'].values[worst]:.0f} s"
+        errors.add(quantity, where, ours[..., worst], theirs[..., worst], abs(theirs).max())
+    films = rounded((films - alone) * 24_000 / steps)
+    return {
+        "includes": ["shaft as a Timoshenko beam, in motion with the films that it lies in"],
+        "seconds_per_case": rounded(alone * 24_000 / steps),
+        "reference": f"{FINER} times the cells around in both films",
+        "cases": f"DLC 1.1, {label(case)}; both films took {films} s, as those of the run",
+        "errors": {},  # of a rung each, not of rungs that compete
+        "error": f"{sentence(errors.summary(), 'bearing load', 'tilt')} of the largest",
+    }
 
 
 def _entry(scene: Scene, case: Case, parts: dict[str, xr.Dataset], seconds: float) -> Entry:

@@ -201,12 +201,6 @@ class Toleranced:
                     f"{where}: only a film at rest or along the series, around a shaft with a "
                     "beam, knows it; give its suspension a beam"
                 )
-            support = shaft.coupled.get(place)
-            if support is not None and support.stiffness == "journal":
-                raise ValueError(
-                    f"{where}: a shaft that feels its films does not know it; give the support a "
-                    "stiffness of its own"
-                )
 
     def is_turned(self, place: str) -> bool:
         """Whether the bore of a journal bearing is, or may be, out of line with its housing."""

@@ -11,12 +11,19 @@ from loadflow.stages.film_of_bearing import equilibria
 
 Floats = np.ndarray
 
+ALIGNED = np.zeros(3)
+
 TURN = np.kron(np.eye(2), [[0.0, -1.0], [1.0, 0.0]])
 """From (y, z, θy, θz) of the cube to the axes of the film, (−z, y, −θz, θy)."""
 
 
 def film_model(
-    options: Journal, speed: Floats, *, tilting: bool = False, strict: bool = True
+    options: Journal,
+    speed: Floats,
+    *,
+    tilting: bool = False,
+    strict: bool = True,
+    bore: Floats = ALIGNED,
 ) -> BearingModel:
     """Position and exact stiffness of the film under each load.
 
@@ -31,6 +38,9 @@ def film_model(
         and the model has no tilt.
     strict : bool
         Raise `loadflow.errors.SolverError` for a load that no film carries; else it has NaN.
+    bore : ndarray, shape (3,)
+        How far the bore is turned against a shaft that does not bend, rad, in the cube: the shaft
+        of a film without moment is turned as much.
     """
     n, size = len(speed), 4 if tilting else 2
     turn, aligned = TURN[:size, :size], options.model_copy(update={"tilt": False})
@@ -51,6 +61,7 @@ def film_model(
             parts = (answer.eccentricity, answer.tilt) if tilting else (answer.eccentricity,)
             moved = np.concatenate(parts, axis=1)
             last[new], motion[new] = load[new], moved @ turn
+            motion[new, 2:] += bore[1 : size - 1]
             stiffness[new] = turn.T @ answer.stiffness @ turn
         return motion.copy(), stiffness.copy()
 

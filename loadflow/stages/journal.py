@@ -112,7 +112,10 @@ def _together(scene: Scene, loads: xr.Dataset) -> dict[str, tuple[xr.Dataset, fl
     tilt, found = load_turbine(scene.turbine.name).rotor.tilt, {}
     for concept in scene.shaft.concepts:
         if move_together(scene, concept) and runs(loads["speed"].values.astype(float)):
-            both = films_together(scene, concept, loads, tilt)
+            try:
+                both = films_together(scene, concept, loads, tilt)
+            except SolverError:
+                continue  # the shaft has told
             found |= dict(zip(concept.bearings, zip(both.path.paths, both.temperature)))
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings as told
 from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError, ValidityWarning
 from loadflow.quantities import percent
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
@@ -16,7 +18,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
-from loadflow.stages.bores import follow_the_shaft, with_bores
+from loadflow.stages.bores import bores, follow_the_shaft, with_bores
 from loadflow.stages.labelling import labelled
 from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -46,7 +48,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     )
     speed = series["speed"].values.astype(float)
     parts = [
-        _against_bores(shaft_on_films(scene, concept, series, tilt))
+        _with_films(scene, concept, series, tilt)
         if move_together(scene, concept) and runs(speed)
         else _suspended(scene, concept, force, moment, speed, tilt)
         for concept in scene.shaft.concepts
@@ -68,13 +70,38 @@ def _suspended(
         return _against_bores(reactions(concept, force, moment, tilt=tilt))
     rigid = reactions(replace(concept, beam=None), force, moment, tilt=tilt)
     thrust = dict(zip(concept.bearings, rigid["force"].values[:, 0]))
+    films = any(support.stiffness == "journal" for support in supports.values())
+    turned = bores(scene) if films else {}
     bearings = {
-        name: _film(scene.journal.at(name), speed, support.takes_moment)
+        name: _film(scene.journal.at(name), speed, support.takes_moment, turned[name])
         if support.stiffness == "journal"
         else _rolling(scene, name, thrust[name], support.takes_moment)
         for name, support in supports.items()
     }
     return _against_bores(coupled_loads(concept, force, moment, bearings, tilt=tilt))
+
+
+def _with_films(scene: Scene, concept: Concept, series: xr.Dataset, tilt: float) -> xr.Dataset:
+    """A shaft in motion with its films; on rigid bearings where that path stops, with a warning."""
+    try:
+        return _against_bores(shaft_on_films(scene, concept, series, tilt))
+    except SolverError as error:
+        assert concept.beam is not None
+        told.warn(
+            f"shaft and films in motion together: {error}; the shaft lies on rigid bearings",
+            ValidityWarning,
+            stacklevel=2,
+        )
+    loads = (
+        series[name].transpose("axis", "time").values.astype(float)
+        for name in ("hub_force", "hub_moment")
+    )
+    rigid = reactions(replace(concept, beam=concept.beam.on_rigid_bearings()), *loads, tilt=tilt)
+    flags = np.zeros((rigid.sizes["bearing"], rigid.sizes["time"]), dtype=bool)
+    meaning = {"units": "1", "long_name": "whether shaft and bearings agree"}
+    none = {"solved": 0, "interpolation_error": 0.0}
+    found = rigid.assign(converged=(("bearing", "time"), flags, meaning))
+    return _against_bores(found.assign_attrs(none))
 
 
 def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
@@ -87,12 +114,12 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
     return {name: pick.get(name, max)(values) for name, values in told.items() if values}
 
 
-def _film(options: Journal, speed: Floats, tilting: bool) -> CoupledBearing:
+def _film(options: Journal, speed: Floats, tilting: bool, bore: Floats) -> CoupledBearing:
     from loadflow.stages.film_support import film_model
 
     fastest = float(np.abs(speed).max())
     return CoupledBearing(
-        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False),
+        lambda rows: film_model(options, speed[rows], tilting=tilting, strict=False, bore=bore),
         state=np.arcsinh(speed / (_GLIDING * fastest or 1.0)),
         idle=np.abs(speed) <= STILL * fastest,
     )

@@ -9,13 +9,15 @@ of the films what these are; both ask for the same path, which is kept from one 
 from __future__ import annotations
 
 import hashlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import xarray as xr
 
 from loadflow.cube import time_step
-from loadflow.journal import Control
+from loadflow.errors import SolverError
+from loadflow.journal import Control, Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
@@ -30,6 +32,7 @@ from loadflow.stages.film_of_bearing import follow
 from loadflow.stages.film_past import Past, after_past, past_of
 from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import from_film, to_film
+from loadflow.stages.turning import SLOWEST
 
 Floats = np.ndarray
 
@@ -78,8 +81,8 @@ def _followable(options: Journal) -> bool:
 
 
 def runs(speed: Floats) -> bool:
-    """Whether the shaft turns in all samples, so that films hold it throughout."""
-    return bool(np.all(np.abs(speed) > STILL * np.abs(speed).max()))
+    """Whether the shaft turns at first, so that films carry it; later on squeeze does, too."""
+    return abs(speed[0]) > max(STILL * np.abs(speed).max(), SLOWEST)
 
 
 def shaft_on_films(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> xr.Dataset:
@@ -113,10 +116,15 @@ def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
     told = repr(asked).encode() + b"".join(part.tobytes() for part in (time, force, moment, speed))
     key = hashlib.sha256(told).hexdigest()
     if key not in _KEPT:
-        found = _followed(scene, concept, loads, tilt)
         _KEPT.clear()
-        _KEPT[key] = found
-    return _KEPT[key]
+        try:
+            _KEPT[key] = _followed(scene, concept, loads, tilt)
+        except SolverError as error:
+            _KEPT[key] = error
+    found = _KEPT[key]
+    if isinstance(found, SolverError):
+        raise found
+    return found
 
 
 def in_motion(
@@ -145,7 +153,7 @@ def in_motion(
     return both.path.paths[concept.bearings.index(bearing)]
 
 
-_KEPT: dict[str, FilmsTogether] = {}  # the last one alone
+_KEPT: dict[str, FilmsTogether | SolverError] = {}  # the last one alone
 
 
 def _series(loads: xr.Dataset) -> tuple[Floats, Floats, Floats, Floats]:
@@ -168,14 +176,8 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
     turned = bores(scene)
     bore = to_film(np.array([turned[name] for name in concept.bearings]))
     given = _given(shaft, bore, time.size)
-    still = [options.model_copy(update={"tilt": False}) for options in bearings]
-    warm = tuple(
-        mean_temperature(options, given["force"][:, k], speed) for k, options in enumerate(still)
-    )
-    held = [
-        options if kelvin is None else options.at_temperature(kelvin)
-        for options, kelvin in zip(bearings, warm)
-    ]
+    parts = [_film_of(options, given["force"][:, k], speed) for k, options in enumerate(bearings)]
+    geometries, films, begins, warm = zip(*parts)
     by = _slopes(shaft)
     control = _CONTROL.limits(tolerance=1e-5, max_iterations=30)
 
@@ -186,8 +188,7 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
             touching=np.array([options.contact_film for options in bearings]),
         )  # fmt: skip
         found = follow_shared(
-            [options.geometry for options in held], [options.film_model for options in held],
-            series["time"], series["speed"], lying, control,
+            geometries, films, series["time"], series["speed"], lying, control, begins
         )  # fmt: skip
         after = slice(past.steps, None)
         parts = (found.position, found.tilt, found.moment)
@@ -195,6 +196,27 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
         return SharedPath(*(part[after] for part in parts), paths=paths)
 
     return FilmsTogether(after_past(path, past_of(scene, loads), time), warm)
+
+
+def _film_of(
+    options: Journal, force: Floats, speed: Floats
+) -> tuple[JournalGeometry, Film, float, float | None]:
+    """A bearing, its film, the temperature at first, and that at which its oil is held, K.
+
+    Where heat is stored the temperature follows; the clearance is that of the first one.
+    """
+    heat = options.heat
+    if not isinstance(heat, Heat):
+        return options.geometry, options.film_model, 0.0, None
+    warm = None if heat.capacity is None else heat.start_temperature
+    if warm is None:
+        warm = mean_temperature(options.model_copy(update={"tilt": False}), force, speed)
+        assert warm is not None
+    held = options.at_temperature(warm)
+    if heat.capacity is None:
+        return held.geometry, held.film_model, 0.0, warm
+    stored = replace(options.film_model, heat=replace(heat, growth=None))
+    return held.geometry, stored, warm, None
 
 
 def _given(shaft: ShaftInFilms, bore: Floats, count: int) -> dict[str, Floats]:

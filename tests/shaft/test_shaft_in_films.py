@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint
 from loadflow.shaft import bearing_loads as suspended
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
+from loadflow.stages import shaft_in_films as shaft_in_films_stage
 from loadflow.stages.film_support import film_model
-from loadflow.stages.frames import to_film
+from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together, move_together
 from loadflow.turbines import load_turbine
 
@@ -36,12 +37,12 @@ def scene_of(supports: list[dict] | None = None, modulus: float = 2.1e11, **film
             "shaft": {"two_point": {"span": 5.0, "beam": beam}},
             "journal": {
                 "geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3},
-                "lubricant": {"viscosity": 0.3},
                 "tilt": True,
                 "motion": "transient",
                 "rung": "reduced",
                 "grid": (40, 20),
             }
+            | ({} if "heat" in film else {"lubricant": {"viscosity": 0.3}})
             | film,
         }
     )
@@ -179,6 +180,63 @@ def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches():
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
     least = min(float(path["minimum_film"].min()) for path in both.paths)
     assert 0.0 < least < scene.journal.contact_film
+
+
+def test_bores_that_are_turned_turn_the_shaft_in_its_films_as_much_less():
+    """At rest under a load that stays, with films in motion as with films at rest."""
+    turn, loads = [2e-4, -1e-4], loads_of(swing=0.0)
+    scene = scene_of(alignment=turn)
+    found = shaft.bearing_loads(scene, None, {"loads": loads}).isel(time=-1)
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    told = to_film(found["tilt"].transpose("bearing", "axis").values)
+    assert np.allclose(told - both.tilt[-1], [turn, turn], atol=1e-7)
+    concept, one = scene.shaft.concepts[0], loads.isel(time=[0])
+    bore = from_film(np.array(turn))
+    models = {
+        name: film_model(scene.journal.at(name), one["speed"].values, tilting=True, bore=bore)
+        for name in concept.bearings
+    }
+    rest = suspended(concept, one["hub_force"], one["hub_moment"], tilt=TILT, models=models)
+    rest = rest.isel(time=0)
+    for name in ("tilt", "moment"):
+        off = np.abs(found[name] - rest[name]).max() / np.abs(rest[name]).max()
+        assert off < 1e-2, name
+
+
+def test_squeeze_holds_a_shaft_that_comes_to_a_stop():
+    scene, loads = scene_of(), loads_of()
+    slower = np.clip(1.5 - 1.5 * loads["time"] / loads["time"][-1], 0.0, 1.0)
+    loads = loads.assign(speed=loads["speed"] * slower)
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    films = np.stack([path["minimum_film"] for path in both.paths], axis=1)
+    assert np.all(films > 0.0)
+    assert np.all(films[-1] < films[0])
+
+
+def test_a_path_that_stops_leaves_the_shaft_on_rigid_bearings(monkeypatch):
+    def stops(*given):
+        raise SolverError("orbit stops at t = 1 s")
+
+    scene, loads = scene_of(), loads_of()
+    monkeypatch.setattr(shaft_in_films_stage, "_followed", stops)
+    monkeypatch.setattr(shaft_in_films_stage, "_KEPT", {})
+    with pytest.warns(ValidityWarning, match="stops at t = 1 s"):
+        found = shaft.bearing_loads(scene, None, {"loads": loads})
+    assert not found["converged"].any()
+    assert np.abs(found["tilt"]).max() < 1e-4
+
+
+def test_films_that_store_heat_cool_down_to_their_balance():
+    heat = {"oil": "iso-vg-220", "inlet_temperature": 313.15, "capacity": 2e5}
+    heat["start_temperature"] = 323.15
+    scene, loads = scene_of(heat=heat), loads_of()
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    for path in both.paths:
+        warm = path["temperature"].values
+        assert warm[0] < 323.15
+        assert warm[-1] > 313.15
+        assert np.all(np.diff(warm) < 0.0)
+        assert np.ptp(warm) > 0.1
 
 
 def test_they_move_together_where_both_bearings_are_films_in_motion():

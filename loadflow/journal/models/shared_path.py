@@ -31,13 +31,12 @@ from loadflow.journal.models.composed_model import (
     rubs,
     unknowns_on,
 )
-from loadflow.journal.models.composed_path import LONG, STRETCH
+from loadflow.journal.models.composed_path import STRETCH
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import (
     COLD,
     THIN,
     cooled,
-    lighter,
     slow_states,
     standing_states,
 )
@@ -49,6 +48,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_LONG = 48  # samples that go on together with few points: more are gone through in vain
 _HOLDS = 4.0  # times the largest load, at which a gap at a bearing end would be closed
 _SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)  # of the way out of the middle
 _ROOM = 0.1  # gap, clearances, that the first place leaves at bearing ends
@@ -136,21 +136,29 @@ def follow_shared(
     """
     march = _March(bearings, options, time, speed, lying, control, temperature)
     march.begins()
-    done, level, samples = 1, LEVELS[0], STRETCH
+    done, samples, levels = 1, STRETCH, [LEVELS[0]] * 2
     while done < time.size:
         end = min(done + samples, time.size)
-        reached = march.goes_on(level, done, end)
-        unresolved = reached < end or march.unresolved(done, end, at.HIGHEST)
-        if unresolved and level != LEVELS[-1]:  # a stretch alone asks for more points
+        reached = march.goes_on(levels, done, end)
+        more = [
+            k
+            for k, level in enumerate(levels)
+            if level != LEVELS[-1] and (reached < end or march.unresolved(k, done, end, at.HIGHEST))
+        ]
+        if more:  # a stretch alone asks for more points
             march.goes_back()
-            level, samples = level + (samples == STRETCH), STRETCH
+            if samples == STRETCH:
+                levels = [level + (k in more) for k, level in enumerate(levels)]
+            samples = STRETCH
             continue
         if reached < end:
             raise march.stops(reached)
-        if level == LEVELS[0]:
-            samples = min(2 * samples, LONG)
-        elif not march.unresolved(done, end, at.BEYOND):
-            level = LEVELS[0]
+        if levels == [LEVELS[0]] * 2:
+            samples = min(2 * samples, _LONG)
+        levels = [
+            level if march.unresolved(k, done, end, at.BEYOND) else LEVELS[0]
+            for k, level in enumerate(levels)
+        ]
         done = end
     return march.told()
 
@@ -171,7 +179,7 @@ class _March:
         self.time, self.speed, self.lying, self.control = time, speed, lying, control
         size = np.hypot(*np.moveaxis(lying.force, -1, 0))
         area = np.array([bearing.width * bearing.diameter for bearing in bearings])
-        self.typical, self.level = size.mean(axis=0) / area, LEVELS[0]
+        self.typical, self.levels = size.mean(axis=0) / area, [LEVELS[0]] * 2
         most = size.max(axis=0) / area
         self.films = {n: self._films(bearings, options, most, n) for n in LEVELS}
         first = self.films[LEVELS[0]]
@@ -217,10 +225,11 @@ class _March:
             side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
         self.shared.before[:] = self.shared.at
 
-    def goes_on(self, level: int, begin: int, end: int) -> int:
-        """Go through the samples `begin` … `end`; how many are done."""
-        if level != self.level:
-            self._take(level)
+    def goes_on(self, levels: list[int], begin: int, end: int) -> int:
+        """Go through the samples `begin` … `end` with points of `levels`; how many are done."""
+        for k, level in enumerate(levels):
+            if level != self.levels[k]:
+                self._take(k, level)
         kept = [*self.shared[1:3], self.shared.steps]
         for side in self.sides:
             kept += [side.place, side.past, side.thin, side.work.last, side.work.before]
@@ -238,26 +247,22 @@ class _March:
             side.work.u[:] = side.work.last
             side.work.kept[0] = 0.0
 
-    def _take(self, level: int) -> None:
-        """Films on the points across of another level."""
-        sides = []
-        for side, here, there in zip(self.sides, self.films[self.level], self.films[level]):
-            for name in ("last", "before", "u"):
-                moved = unknowns_on(getattr(here.work, name), here, there)
-                getattr(there.work, name)[:] = moved
-            there.work.kept[0] = 0.0
-            sides.append(side._replace(film=there.film, work=there.work))
-        self.sides, self.level = sides, level
+    def _take(self, k: int, level: int) -> None:
+        """A film on the points across of another level."""
+        here, there = self.films[self.levels[k]][k], self.films[level][k]
+        for name in ("last", "before", "u"):
+            moved = unknowns_on(getattr(here.work, name), here, there)
+            getattr(there.work, name)[:] = moved
+        there.work.kept[0] = 0.0
+        self.sides[k] = self.sides[k]._replace(film=there.film, work=there.work)
+        self.levels[k] = level
 
-    def unresolved(self, begin: int, end: int, by: int) -> bool:
-        """Whether few points miss, or would miss, the pressure of some of these samples."""
-        some = slice(begin, end)
-        for k, (side, model) in enumerate(zip(self.sides, self.films[self.level])):
-            rows, force = side.rows[some], self.lying.force[some, k]
-            missed = model.unresolved_on_path(rows, force, float(self.typical[k]), by)
-            if (missed | rubs(rows, force)).any():
-                return True
-        return False
+    def unresolved(self, k: int, begin: int, end: int, by: int) -> bool:
+        """Whether few points miss, or would miss, the pressure of a film in these samples."""
+        rows, force = self.sides[k].rows[begin:end], self.lying.force[begin:end, k]
+        model = self.films[self.levels[k]][k]
+        missed = model.unresolved_on_path(rows, force, float(self.typical[k]), by)
+        return bool((missed | rubs(rows, force)).any())
 
     def stops(self, done: int) -> OrbitStopped:
         """Say at which time the path ends."""
@@ -312,13 +317,12 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
         load = 0.0
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
-    light = lighter(warmth, states, 0) if warmth.on else 1.0
     return Side(
         film=film, work=model.work, lies=lies, felt=felt, turned=turned, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
-        thin=np.array([states[0, THIN], light]), warmth=warmth, states=states,
+        thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
     )  # fmt: skip
 
 
