@@ -17,6 +17,7 @@ from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import move_together
 from loadflow.stages.stage import with_settings
+from loadflow.stages.turning import always_turns
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
@@ -126,10 +127,10 @@ def _stated(scene: Scene) -> bool:
 def _switched(scene: Scene, on: bool) -> Scene | None:
     """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
 
-    None where these are no films that can be.
+    None where these are no films that can be, or the shaft stands at times.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
-    if journal is None:
+    if journal is None or (on and not always_turns(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
     if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
@@ -166,7 +167,7 @@ CLEARANCES = Effect(
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
     'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '
-    "a thrust collar beside them must be self_aligning",
+    "a thrust collar beside them must be self_aligning, and the shaft never stand",
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))

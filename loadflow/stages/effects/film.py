@@ -21,7 +21,7 @@ from loadflow.stages.effects.situation import HOLLOW, Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
-from loadflow.wind.cases import load_case
+from loadflow.stages.turning import always_turns
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
@@ -78,14 +78,6 @@ def _motion(at: Situation) -> Sizes:
             worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
         )
     return largest(found)
-
-
-def always_turns(scene: Scene) -> bool:
-    """Whether the rotor turns through all load cases; of given series that is not known."""
-    if scene.loads.source == "files":
-        return True
-    rows = [load_case(dlc) for dlc in scene.loads.dlcs]
-    return all(row.operating and row.events == ("none",) for row in rows)
 
 
 def _may_move(scene: Scene) -> bool:
