@@ -133,7 +133,7 @@ RUNGS: dict[str, Rung] = {
             f"{_MODELS}.reduced",
             _REDUCED,
             _REDUCED | _WARMING | {"step", "periodic"},
-            _REDUCED - _HEAT - {"moment", "film_heat"},
+            _REDUCED - _HEAT - {"moment"},
         ),
         Rung(
             "grid",

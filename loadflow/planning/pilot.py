@@ -94,7 +94,8 @@ class Questions:
     cases : tuple of Case
         Those that are looked at.
     settled : tuple of str
-        Effects of these that are kept whatever their size: whether they can be on is asked alone.
+        Effects of these that are kept whatever their size: whether they can be on is asked alone,
+        and not even that of a model that surely answers, whose others are measured without them.
     """
 
     scene: Scene
@@ -287,7 +288,7 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
 def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
     """Whether the plan has the effect, and expects to take no less time without."""
     without = switched(chosen, effect, False)
-    if not effect.is_on(chosen) or without is None or effect.cost is None:
+    if not effect.is_on(chosen) or without is None:
         return False
     with_it, left = (
         [expected_seconds(one, name, cases) for name in needed_stages(one)]
@@ -331,6 +332,10 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
         ours = [effect for effect in effects if effect.probed == model]
         if not ours:
             continue
+        if probe.surely_answers:  # then nobody asks whether those that are kept go with others
+            for effect in (one for one in ours if one.name in questions.settled):
+                scene = switched(scene, effect, False) or scene
+            ours = [one for one in ours if one.name not in questions.settled or one.is_on(scene)]
         try:
             for name in probe.reads:
                 if name not in inputs:

@@ -208,6 +208,8 @@ def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
     if not scene.shaft.coupled:
         return _described(scene)
+    if any(move_together(scene, concept) for concept in scene.shaft.concepts):
+        return "on journal, in motion"
     kinds = {
         f"{support.stiffness}, tilting"
         if support.stiffness == "journal" and support.takes_moment

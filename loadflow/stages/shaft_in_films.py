@@ -1,9 +1,9 @@
 """A shaft and the films of its two journal bearings, in motion together.
 
-Where films follow the whole series (`journal.motion = "transient"`), the shaft is tilted by where it
-is in both of them at each time, and not by where it would rest: squeeze holds it while loads swing.
-So shaft and films are one system. The shaft stage tells its loads and how it lies, the stage of the
-films what these are; both ask for the same path, which is kept from one to the other.
+Where films follow the whole series (`journal.motion = "transient"`), the shaft is tilted by where
+it is in both of them at each time, and not by where it would rest: squeeze holds it while loads
+swing. So shaft and films are one system. The shaft stage tells its loads and how it lies, the stage
+of the films what these are; both ask for the same path, which is kept from one to the other.
 """
 
 from __future__ import annotations

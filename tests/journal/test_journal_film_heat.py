@@ -264,10 +264,6 @@ def test_a_scene_has_either_kind_of_heat():
     for more, words in (
         ({"heat": {"kind": "film", "transfer": 5.0}}, r"journal\.heat\.transfer: unknown key"),
         ({"heat": {"kind": "oven"}}, "kind must be one of balance, film"),
-        (
-            {"heat": {"kind": "film", "stiffness": "settled"}, "rung": "reduced"},
-            '"frozen" with heat',
-        ),
         ({"heat": {"kind": "film"}, "cavitation": "reynolds"}, "a law that conserves mass"),
     ):
         with pytest.raises(InputError, match=words):

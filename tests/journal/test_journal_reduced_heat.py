@@ -5,10 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
+from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Arc,
     Contact,
+    Control,
+    Crown,
     Film,
     FilmHeat,
     GasMixture,
@@ -17,6 +19,7 @@ from loadflow.journal import (
     Lobes,
     LocalShell,
     Lubricant,
+    MassConserving,
     RingGrowth,
     Supply,
     TiltingPads,
@@ -75,6 +78,20 @@ def test_a_film_at_rest_is_that_of_the_grid(more, line):
     assert own.film_temperature.shape == (own.angle.size, own.z.size) == grid.film_temperature.shape
     off = np.linalg.norm(own.moment - grid.moment)
     assert off <= 1e-3 * np.linalg.norm(LOAD) * BEARING.width
+
+
+@pytest.mark.parametrize(
+    ("relief", "law"),
+    [((Crown(1e-5, 0.02),), GasMixture(5e4)), ((), MassConserving(5e4))],
+)
+def test_growth_with_a_crown_or_any_law_is_that_of_the_grid(relief, law):
+    bearing = replace(BEARING, relief=relief)
+    own, grid = (
+        bearing.equilibrium(LOAD, SPEED, replace(film(rung, FINE, GROWS), cavitation=law))
+        for rung in ("reduced", "grid")
+    )
+    for name, most in zip(TOLD, (0.006, 0.01, 0.0015)):
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
 
 
 @pytest.mark.parametrize(
@@ -228,18 +245,82 @@ def test_a_closed_path_with_shell_and_asperities_closes(heat):
     assert path.attrs["heat_imbalance"] < 1e-8
 
 
-@pytest.mark.parametrize(
-    ("more", "words"),
-    [
-        ({"heat": replace(HEAT, stiffness="settled")}, "heat.stiffness = 'settled'"),
-    ],
-)
-def test_what_the_strips_do_not_know_is_refused_by_name(more, words):
-    with pytest.raises(InputError, match=words):
-        BEARING.equilibrium(LOAD, SPEED, film(**more))
+PLACED = [
+    ({}, {}),
+    ({"heat": GROWS, "shell": LocalShell(1e-12)}, {}),
+    ({"contact": ROUGH}, {"tilt": (0.0, 2e-4)}),
+    ({"heat": replace(GROWS, points=4), "supply": POCKET}, {}),
+]
+
+
+@pytest.mark.parametrize(("more", "line"), PLACED)
+def test_a_film_at_a_place_is_that_of_the_grid_and_carries_the_load_at_rest_there(more, line):
+    rest = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE, **more), **line)
+    own, grid = (
+        BEARING.pressure(rest.eccentricity, SPEED, film(rung, FINE, **more), **line)
+        for rung in ("reduced", "grid")
+    )
+    np.testing.assert_allclose(own.force, LOAD, atol=1e-6 * np.hypot(*LOAD))
+    for name in (*TOLD, "temperature", "heat_carried"):
+        assert getattr(own, name) == pytest.approx(float(getattr(rest, name)), rel=1e-6)
+    assert own.heat_imbalance < 1e-8
+    most = 0.02 if "heat" in more else 0.01
+    np.testing.assert_allclose(own.force, grid.force, atol=most * np.hypot(*LOAD))
+    for name in TOLD:
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
+    assert own.temperature == pytest.approx(float(grid.temperature), abs=0.1)
+    # fields are those of the points at which the pressure is shown
+    around, across = own.angle.size, own.z.size
+    assert own.film_temperature.shape == own.pressure.shape == (around, across)
+    assert own.to_dataset().sizes["across"] == across
+    if "heat" in more:
+        middle = np.abs(own.z) < 0.04
+        rows = np.array([np.interp(own.z, grid.z, row) for row in grid.thermal_growth])
+        about = rows[:, middle].mean()
+        assert own.thermal_growth[:, middle].mean() == pytest.approx(about, rel=0.02)
+
+
+@pytest.mark.parametrize(("more", "line"), PLACED[:1] + PLACED[2:])
+def test_a_settled_stiffness_is_that_of_the_grid(more, line):
+    """So it is for the tilts of a shaft; at frozen temperatures it is another one."""
+    heat = replace(more.get("heat", HEAT), stiffness="settled")
+    own, grid = (
+        BEARING.equilibrium(LOAD, SPEED, film(rung, FINE, **more | {"heat": heat}), **line)
+        for rung in ("reduced", "grid")
+    )
+    frozen = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE, **more), **line).stiffness
+    for block in (np.s_[:2, :2], np.s_[2:, 2:]):
+        if not own.stiffness[block].size:
+            continue
+        largest = np.abs(grid.stiffness[block]).max()
+        apart = np.abs(own.stiffness[block] - grid.stiffness[block]).max()
+        assert apart < 0.02 * largest
+        assert np.abs(frozen[block] - grid.stiffness[block]).max() > 3.0 * apart
+    np.testing.assert_allclose(own.damping, grid.damping, atol=0.02 * np.abs(grid.damping).max())
+
+
+def test_what_has_no_film_at_a_place_says_why():
+    with pytest.raises(InputError, match="velocity"):
+        BEARING.pressure((1e-5, 0.0), SPEED, film(), velocity=(1e-3, 0.0))
+    with pytest.raises(InputError, match=r"eccentricity 1: .*touches the bore"):
+        BEARING.pressure([(1e-5, 0.0), (1.1e-4, 0.0)], SPEED, film())
+    hot = replace(HEAT, shell_transfer=0.0)
+    with pytest.raises(SolverError, match=r"film 0: .*K"):
+        BEARING.pressure((9.9e-5, 0.0), 3e3, film(heat=hot))
+    flagged = BEARING.pressure(
+        [(9.9e-5, 0.0), (1e-5, 0.0)], [3e3, 10.0], film(heat=hot), control=Control(strict=False)
+    )
+    assert not flagged.converged[0]
+    assert np.isnan(flagged.temperature[0])
+
+
+def test_pads_with_heat_over_the_area_are_those_of_the_grid():
     pads = replace(BEARING, shape=TiltingPads(4, 1.2))
-    with pytest.raises(InputError, match="a bore without tilting pads"):
-        pads.equilibrium(LOAD, SPEED, film())
+    state = pads.equilibrium(LOAD, SPEED, film())
+    assert state.converged
+    assert state.pad_tilt.shape == (4,)
+    with pytest.raises(InputError, match="that of one temperature for pads in motion"):
+        pads.orbit(np.linspace(0.0, 1e-2, 3), np.tile(LOAD, (3, 1)), SPEED, film())
 
 
 def test_growth_asks_for_a_film_that_runs_round():

@@ -68,6 +68,8 @@ class Side(NamedTuple):
         which it would close; no load: they do not.
     place, new : array (4,)
         At the last time, and at the next.
+    past : array (8,)
+        Place at the time before the last; bend then, and at the last.
     rows : array (n, RESULTS)
         Results, but for the first row filled.
     thin : array (2,)
@@ -88,6 +90,7 @@ class Side(NamedTuple):
     stop: Array
     place: Array
     new: Array
+    past: Array
     rows: Array
     thin: Array
     warmth: Warmth
@@ -106,8 +109,8 @@ class Shared(NamedTuple):
         moments of both films at the last time.
     system : array (4, 5)
         Linear system of a step.
-    spent : array (n,)
-        Newton steps.
+    steps : array (1,)
+        Step to the last time, s.
     """
 
     load: Array
@@ -118,7 +121,7 @@ class Shared(NamedTuple):
     missing: Array
     moment: Array
     system: Array
-    spent: Array
+    steps: Array
 
 
 @inner
@@ -332,20 +335,40 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
         _advance(one, other, shared)
 
 
+@once
+def _set_out(one, other, begin):
+    """Make both films those of the last time; from the third time on, others before them, too."""
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        for a in range(2 if begin > 1 else 1):
+            first = begin > 1 and a == 0
+            for i in range(work.u.shape[0]):
+                for m in range(work.u.shape[1]):
+                    if first:
+                        work.trial[i, m], work.u[i, m] = work.last[i, m], work.before[i, m]
+                    elif begin > 1:
+                        work.u[i, m] = work.trial[i, m]
+            for b in range(2):
+                work.bend[b] = side.past[4 + b] if first else side.past[6 + b]
+            for b in range(4):
+                side.new[b] = side.past[b] if first else side.place[b]
+            place(film, work, side.new)
+            keep(work)
+
+
 @outer
-def follow(first, second, shared, time, speed, tolerance, max_iterations):
+def follow(first, second, shared, begin, time, speed, tolerance, max_iterations):
     """Steps of both films and of the shaft through all times; returns how many times are done.
 
+    They go on from `begin`: from films at rest at the first time, or from those that are there.
     Steps are those of `_composed_loops.solve`: of second order, cut where Newton fails. How the
     moments of the films bend the shaft is that of the last time.
     """
     one, other, shared = refer(first), refer(second), refer(shared)
-    for k in range(2):
-        side = one if k == 0 else other
-        place(side.film, side.work, side.place)
-        keep(side.work)
-    step_before = 0.0
-    for n in range(1, time.size):
+    _set_out(one, other, begin)
+    step_before = shared.steps[0] if begin > 1 else 0.0
+    for n in range(begin, time.size):
         whole = time[n] - time[n - 1]
         share, done, spent = 1.0, 0.0, 0
         for k in range(2):
@@ -395,16 +418,18 @@ def follow(first, second, shared, time, speed, tolerance, max_iterations):
                     side = one if k == 0 else other
                     keep(side.work)
                     for a in range(4):
-                        side.place[a] = side.new[a]
+                        side.past[a], side.place[a] = side.place[a], side.new[a]
+                    for a in range(2):
+                        side.past[4 + a], side.past[6 + a] = side.past[6 + a], side.work.bend[a]
                 for b in range(4):
                     shared.before[b], shared.at[b] = shared.at[b], shared.new[b]
                 step_before, share, done = step, min(2.0 * share, 1.0), to
+                shared.steps[0] = step
             elif share > SMALLEST:
                 share *= 0.5
                 one.work.kept[0], other.work.kept[0] = 0.0, 0.0
             else:
                 return n
-        shared.spent[n] = spent
         for k in range(2):
             side = one if k == 0 else other
             wedge = 0.5 * side.film.ring.slope * side.thin[0] * omega

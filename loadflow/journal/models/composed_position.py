@@ -31,6 +31,7 @@ from loadflow.journal.models.composed_model import (
     unknowns_on,
     warn_unresolved,
 )
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.numerics.convergence import Limits
 
@@ -80,7 +81,10 @@ class Held:
 
 
 class Positions:
-    """What drives the films of one call, and their models by cells around and level."""
+    """What drives the films of one call, and their models by cells around and level.
+
+    `viscosity` is that of `build`.
+    """
 
     def __init__(
         self,
@@ -91,11 +95,12 @@ class Positions:
         speed: Array,
         line: Line,
         control: Limits,
-        across: int | None,
+        across: int | None = None,
+        viscosity: Thickness | None = None,
     ) -> None:
         self.bearing, self.options, self.line = bearing, options, line
         self.position, self.velocity, self.speed = position, velocity, speed
-        self.control, self.across = control, across
+        self.control, self.across, self.viscosity = control, across, viscosity
         self.models: dict[tuple[int, int, int | None], ComposedFilm] = {}
         self.lines = self.model(options.cells[0], 0, across).lines(speed.size)
 
@@ -106,8 +111,9 @@ class Positions:
             fastest = np.abs(self.speed) + np.hypot(*self.velocity.T)
             options = replace(self.options, grid=(around, self.options.cells[1]))
             self.models[key] = build(
-                self.bearing, options, fastest, self.line, level, at_rest=True, across=across
-            )
+                self.bearing, options, fastest, self.line, level, at_rest=True, across=across,
+                viscosity=self.viscosity,
+            )  # fmt: skip
         return self.models[key]
 
     def shown(self, held: list[Held]) -> ComposedFilm:
@@ -135,17 +141,17 @@ class Positions:
 
     def _on_levels(self, n: int, around: int) -> Held:
         """Film at position `n` on cells around, on points of the first level that resolves it."""
-        held = self._on(n, self.model(around, 0, self.across), None)
+        held = self.on(n, self.model(around, 0, self.across), None)
         for level in levels_at_rest(self.options)[1:]:
             if not held.left:
                 break
-            more = self._on(n, self.model(around, level, None), held)
+            more = self.on(n, self.model(around, level, None), held)
             if not more.found:
                 break
             held = more
         return held
 
-    def _on(self, n: int, model: ComposedFilm, near: Held | None) -> Held:
+    def on(self, n: int, model: ComposedFilm, near: Held | None) -> Held:
         """Film at position `n` on a model, from that `near` it on fewer points."""
         work, ring, lanes = model.work, model.film.ring, model.film.lanes
         vx, vy = self.velocity[n]
@@ -233,7 +239,15 @@ def pressure(
     if left.any():
         warn_unresolved(left, f"position {int(left.argmax())}")
     shown = films.shown(held)
-    rows, first = np.array([film.row for film in held]), held[0].model
+    return told(films, held, [shown] * speed.size), places_across(shown)
+
+
+def told(films: Positions, held: list[Held], shown: list[ComposedFilm]) -> dict[str, Any]:
+    """Fields of `FilmField`, (n, …), of films that are `held`, shown on the
+    points of a model each, as many of all.
+    """
+    bearing, speed, first = films.bearing, films.speed, held[0].model
+    rows = np.array([film.row for film in held])
     force, slopes = np.array([film.force for film in held]), np.array([f.slopes for f in held])
     count, size = speed.size, slopes.shape[-1]
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:size]
@@ -251,14 +265,22 @@ def pressure(
         "converged": np.array([film.found for film in held]),
         "relative_grid_error": np.array([film.errors for film in held]),
     }
-    if options.contact is not None:
+    if films.options.contact is not None:
         answer["contact_share"] = contact_share(answer["contact_force"], force)
-    cells = [_cells(film, shown, films.lines[n], control) for n, film in enumerate(held)]
+    cells = [
+        _cells(film, on, line, films.control) for film, on, line in zip(held, shown, films.lines)
+    ]
     answer |= {name: np.array([one[name] for one in cells]) for name in cells[0]}
-    ring = shown.film.ring
+    ring = shown[0].film.ring
     answer["angle"] = np.tile(np.unwrap(np.arctan2(ring.sin, ring.cos)), (count, 1))
-    z = shown.film.nodes.z[: shown.film.nodes.slopes.shape[1]] * bearing.radius
-    return answer, z if shown.whole else np.concatenate([-z[::-1], z])
+    return answer
+
+
+def places_across(model: ComposedFilm) -> Array:
+    """Places of the points across both halves of the width, m."""
+    nodes = model.film.nodes
+    z = nodes.z[: nodes.slopes.shape[1]] * model.bearing.radius
+    return z if model.whole else np.concatenate([-z[::-1], z])
 
 
 def _cells(held: Held, shown: ComposedFilm, line: Array, control: Limits) -> dict[str, Array]:

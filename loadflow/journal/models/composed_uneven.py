@@ -77,23 +77,23 @@ class Thickness(NamedTuple):
         if self.growth is None:
             return Uneven(True, *told, False, _NONE_LANES, _NONE_LANES, _NONE_AROUND)
         apart = self.growth - self.growth.mean(axis=0)
-        own = self._grown(apart, points)
+        own = self.grown(apart, points)
         wider = aligned(np.zeros((2, len(own), lanes_for(points.size))))
         wider[0, :, : points.size], wider[1, :, : points.size] = own, _at_faces(own, width)
-        return Uneven(True, *told, True, wider[0], wider[1], self._grown(apart, beside))
+        return Uneven(True, *told, True, wider[0], wider[1], self.grown(apart, beside))
 
     def mean_growth(self, points: Array) -> Array:
         """Growth of the gap around on average at `points` across (l,), clearances."""
         if self.growth is None:
             return np.zeros(points.size)
-        return self._grown(self.growth.mean(axis=0)[None], points)[0]
+        return self.grown(self.growth.mean(axis=0)[None], points)[0]
 
     def _across(self, values: Array, points: Array) -> Array:
         """Values (nx, l) at points across."""
         return np.stack([np.interp(points, self.z, row) for row in values])
 
-    def _grown(self, values: Array, points: Array) -> Array:
-        """The same of growth, which goes on straight to the bearing ends, as on the grid."""
+    def grown(self, values: Array, points: Array) -> Array:
+        """Values (nx, s) at points across as of growth: straight to the ends, as on the grid."""
         before = np.clip(np.searchsorted(self.z, points) - 1, 0, self.z.size - 2)
         way = (points - self.z[before]) / (self.z[before + 1] - self.z[before])
         if self.z[0] >= 0.0:  # mirrored at mid-plane

@@ -198,8 +198,6 @@ def _pairs(
     if film.rung == "reduced":
         closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
         yield "step", "adaptive", closed and steps.step == "adaptive", given
-    if film.rung == "reduced" and over_area:
-        yield from _on_strips(film, bearing)
     if verb == "in_motion":
         one = "that of one temperature for pads in motion"
         yield "heat", film.heat, pads and over_area, one
@@ -229,14 +227,6 @@ def _ends(shape: Shape) -> bool:
     if shape.grooves_between or not shape.segments:
         return False
     return 2 * np.pi - (shape.segments[-1].end - shape.segments[0].start) >= OPEN
-
-
-def _on_strips(film: Film, bearing: JournalGeometry) -> Iterator[tuple[str, Any, bool, str]]:
-    """What does not go with temperatures on strips; as `_pairs`."""
-    heat, here = film.heat, 'with heat over the area on rung = "reduced"'
-    yield "shape", bearing.shape, bearing.has_pads, f"a bore without tilting pads {here}"
-    settled = getattr(heat, "stiffness", "") == "settled"
-    yield "heat.stiffness", "settled", settled, f'"frozen" {here}'
 
 
 def _beside_grooves(

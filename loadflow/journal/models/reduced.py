@@ -29,6 +29,7 @@ from loadflow.journal.models import (
     composed,
     composed_closed,
     composed_heat,
+    composed_heat_position,
     composed_path,
     composed_position,
     grid,
@@ -173,6 +174,8 @@ def pressure(
     given = bearing, options, position, velocity, speed
     if Bore.of(bearing).pads:
         return grid.pressure(*given, line, control)
+    if options.heat is not None:
+        return composed_heat_position.pressure(*given, line, control)
     across = None if composed.composes(bearing, options, line) else POINTS
     answer, z = composed_position.pressure(*given, line, control, across)
     for n in np.flatnonzero(~answer["converged"]):

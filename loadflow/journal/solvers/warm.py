@@ -39,6 +39,8 @@ HeatOf = Callable[[Solution, Array], Warmth]
 
 TOLERANCE, TRIES = 1e-7, 150
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
+DRIFT = 2e-3
+"""Share of the narrowest gap, by which the shaft moves for a settled stiffness."""
 _DEPTH = 6  # earlier fields that count
 _ACCELERATED, _SHORT = 8, 0.3  # fields after which no more than this share of a change is made
 _CUT, _GROWN, _SHORTEST = 0.5, 1.1, 0.01  # of that share: less after a turn, more else, the least
@@ -46,7 +48,6 @@ _REGAINED = 1.3  # growth of the share of every change where all are small
 _NEAR = 0.5  # change, K, below which the method is trusted again
 _WORSE = 1.5  # of the smallest change so far, that from which the next field goes back
 _TOO_HOT = 5  # fields in a row that warm beyond the largest temperature: one that settles has one
-_STEP = 2e-3  # of the narrowest gap, by which the shaft moves for a settled stiffness
 _HALVINGS = 4  # steps of the temperature that are halved before the film is given up
 _WARMS = 10.0  # K, that a film must still warm by where it is lost, to have no temperature at all
 _MOST_AROUND = 240  # cells, of a film that is not found on fewer
@@ -146,7 +147,7 @@ def _settled_stiffness(
         If ``control.strict``, a film beside the equilibrium has no temperatures; else all are NaN.
     """
     film, size = statics.film, statics.gap.size
-    step = _STEP * film.narrowest(last[0].u, last[0].position)
+    step = DRIFT * film.narrowest(last[0].u, last[0].position)
     limits = control.tolerance, film.newton_steps(control.max_iterations)
     columns = np.empty((size, size))
     for way in range(size):

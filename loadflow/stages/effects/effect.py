@@ -49,9 +49,9 @@ class Effect:
         What the scene must say for the effect to be on.
     concerns : callable
         Scene → whether the effect can be there at all, on or off.
-    cost : callable, optional
+    cost : callable
         Scene with the effect on → time of its stage over that without, beyond what the ladder's
-        rung tells; None where it is not measured.
+        rung tells.
     rungs : tuple of str
         Rungs that know it, by the setting ``rung`` of the section; empty: all.
     partly : tuple of (str, str)
@@ -80,7 +80,7 @@ class Effect:
     out: str
     needs: str = ""
     concerns: Callable[[Scene], bool] = lambda scene: True
-    cost: Callable[[Scene], float] | None = lambda scene: 1.0
+    cost: Callable[[Scene], float] = lambda scene: 1.0
     rungs: tuple[str, ...] = ()
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False

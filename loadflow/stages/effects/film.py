@@ -74,10 +74,15 @@ def _motion(at: Situation) -> Sizes:
         change = THREE_P * (1 - left) * load.swing / np.maximum(load.radial + load.swing, 1.0)
         change = np.where(at.turns, change, 0.0)
         gain = gains()["journal"]
-        found.append(
-            worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
-        )
+        # the mean of the friction moves less than its extremes
+        power = MEAN * gain["friction power"] * float(np.max(change))
+        moved = (gain[name] * change for name in ("eccentricity ratio", "maximum pressure"))
+        found.append(worst(film, *moved, power))
     return largest(found)
+
+
+MEAN = 0.5
+"""Change of a mean by motion over that of an extreme; docs/physics.md."""
 
 
 def _may_move(scene: Scene) -> bool:
@@ -190,11 +195,11 @@ def _shell(at: Situation) -> Sizes:
     thickness = getattr(shell, "thickness", WALL * at.scene.journal.geometry.diameter)
     compliance = getattr(shell, "compliance", 0.2 * thickness / modulus)
     found = []
-    for film in at.films.values():
-        above = film.maximum_pressure - at.scene.journal.edge_pressure
+    for name, film in at.films.items():
+        above = film.maximum_pressure - at.scene.journal.at(name).edge_pressure
         share = float(np.nanmax(above * compliance / film.minimum_film))
-        names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
-        found.append({name: min(0.25 * share, 1.0) for name in names})
+        answers = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+        found.append({answer: min(0.25 * share, 1.0) for answer in answers})
     return largest(found)
 
 

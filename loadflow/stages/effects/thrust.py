@@ -156,13 +156,15 @@ PRESSED = 0.105
 def _warmed(scene: Scene, on: bool) -> Scene | None:
     """The scene with a heat balance of each collar, or without any.
 
-    A stated viscosity is then that of the oil that enters.
+    A stated viscosity is that of the oil that enters, with and without.
     """
     changed: dict[str, AnyAxial] = {}
     for place, collar in scene.thrust.collars.items():
         stated = collar.model_dump(exclude_unset=True) | {"grid": collar.grid}
-        stated.pop("heat" if not on else "lubricant", None)
-        if on and collar.heat is None:
+        if not on:
+            stated |= {"heat": None, "lubricant": collar.oil}
+        elif collar.heat is None:
+            stated.pop("lubricant", None)
             try:
                 stated["heat"] = PadHeat(oil=oil_of(collar.lubricant))
             except InputError:

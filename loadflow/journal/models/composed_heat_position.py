@@ -1,0 +1,230 @@
+"""Reduced films with heat over the area at given positions, and the stiffness of slow drift.
+
+Film and temperatures agree at every position as they do at rest, on the same strips.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import partial
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.errors import InputError, SolverError
+from loadflow.journal.film.linearised import Linear
+from loadflow.journal.film.temperatures import Warmth
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.heat import FilmHeat
+from loadflow.journal.line import Line
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models import grid
+from loadflow.journal.models.composed_model import (
+    ComposedFilm,
+    build,
+    levels_at_rest,
+    warn_unresolved,
+)
+from loadflow.journal.models.composed_position import Held, Positions, places_across, told
+from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.models.strip_film import SHARP, StripFilm, Tried, with_heat
+from loadflow.journal.rows import answered_rows, columns_of
+from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.warm import DRIFT, OVER_AREA, WarmFilm, heat_columns, no_warmth
+from loadflow.numerics.convergence import Limits
+from loadflow.numerics.fields import require
+
+Array = NDArray[np.float64]
+
+
+class _AtPlaces:
+    """Positions of a shaft in a reduced film with heat, and the films at the temperatures tried."""
+
+    def __init__(
+        self,
+        bearing: JournalGeometry,
+        options: Film,
+        equation: StripFilm,
+        position: Array,
+        speed: Array,
+        line: Line,
+        limits: Limits,
+    ) -> None:
+        self.equation, self.count = equation, speed.size
+        given = bearing, options, position, np.zeros_like(position), speed, line, limits
+        self._given = given
+        self._held = dict[int, Held]()  # films at temperatures tried before
+        self.tried = dict[int, Positions]()  # what they are films of
+
+    def film(self, n: int, level: int) -> Tried[Held]:
+        """Film at position `n` on the points of a level."""
+        self.equation.require_gap()
+        here = Positions(*self._given, viscosity=self.equation.viscosity)
+        self.tried[n] = here
+        model = here.model(here.options.cells[0], level, None)
+        held = here.on(n, model, self._held.get(n))
+        row, made = held.row, None
+        self._held.pop(n, None)
+        if held.found:
+            self._held[n] = held
+            speed, rubbed = float(here.speed[n]), 0.0
+            if here.options.contact is not None:
+                told = model.results(row[None], np.array([speed]))
+                rubbed = float(told["contact_power"][0])
+            made = self.equation.made(model, speed, rubbed)
+        load = np.append(held.force, row[at.MOMENT_X : at.MOMENT_Y + 1])
+        linear = Linear(load, held.slopes[0], held.slopes[1], held.place)
+        spent, residual = int(row[at.ITERATIONS]), float(row[at.RESIDUAL])
+        solution = Solution(held.unknowns, held.place, linear, held.found, spent, residual)
+        return Tried(held, solution, made, held.left, level)
+
+    def found(
+        self, n: int, levels: Sequence[int], last: tuple[Solution, Warmth] | None
+    ) -> tuple[Tried[Held] | None, WarmFilm]:
+        """Film and temperatures at position `n`."""
+        return with_heat(self.equation, levels, partial(self.film, n), last)
+
+
+def pressure(
+    bearing: JournalGeometry,
+    options: Film,
+    position: Array,
+    velocity: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+) -> tuple[dict[str, Any], Array]:
+    """Fields of `FilmHeatField`, (n, …), and places of the points across, m, of films at positions.
+
+    Temperatures are shown at the points across, straight between the strips that they are those of.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        A velocity; the shaft touches the bore.
+    loadflow.errors.SolverError
+        If ``limits.strict``, the first position without film or temperatures.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        A pressure that changes more across the width than the polynomials do; names the position.
+    """
+    require(not velocity.any(), "velocity", velocity.tolist(), "0 with heat over the area")
+    bare = replace(options.isothermal(), grading="uniform")
+    levels = levels_at_rest(bare)[1:]
+    heat = cast("FilmHeat", options.heat)
+    each = replace(limits, tolerance=min(limits.tolerance, SHARP), strict=False)
+    equation = StripFilm(build(bearing, bare, speed, line, levels[0], at_rest=True), heat)
+    places = _AtPlaces(bearing, bare, equation, position, speed, line, each)
+    films: list[tuple[Positions, Held]] = []
+    rows: list[dict[str, Any]] = []
+    left, wider = np.zeros(speed.size, bool), np.ones(speed.size)
+    for n in range(speed.size):
+        tried, found = places.found(n, levels, None)
+        if not found.converged:
+            why = _why_by_grid(bearing, options, position, speed, line, limits, n)
+            if limits.strict:
+                raise SolverError(f"film {n}: {no_warmth(found) or why}")
+        if tried is None:  # grown into its shell in oil as it enters: a film without heat
+            own = Positions(bearing, bare, position, velocity, speed, line, each)
+            films.append((own, own.on(n, own.model(bare.cells[0], levels[0], None), None)))
+        else:
+            films.append((places.tried[n], tried.film))
+            left[n] = found.converged and tried.left
+        wider[n] = 1.0 + equation.mean_growth / bearing.clearance
+        rows.append(heat_columns(equation, found) | {"converged": found.converged})
+    if left.any():
+        warn_unresolved(left, f"position {int(left.argmax())}")
+    held = [film for _, film in films]
+    shown = [own.shown(held) for own, _ in films]
+    answer, z = told(films[0][0], held, shown), places_across(shown[0])
+    answer["eccentricity_ratio"] /= wider
+    strips = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
+    answer |= _at_points(columns_of(rows), strips, z / bearing.radius, heat)
+    return answered_rows(answer["converged"], answer), z
+
+
+def _at_points(
+    rows: dict[str, Any], strips: Array, points: Array, heat: FilmHeat
+) -> dict[str, Any]:
+    """Columns of heat whose fields on `strips` are shown at `points` across."""
+    growth = "thermal_growth"
+    fields = {
+        name: np.array([[np.interp(points, strips, row) for row in film] for film in rows[name]])
+        for name in OVER_AREA
+        if name != growth
+    }
+    fields["film_viscosity"] = np.asarray(heat.liquid.viscosity(fields["film_temperature"]))
+    grown = Thickness(strips, rows[growth][0])
+    fields[growth] = np.array([grown.grown(film, points) for film in rows[growth]])
+    return rows | fields
+
+
+def _why_by_grid(
+    bearing: JournalGeometry,
+    options: Film,
+    position: Array,
+    speed: Array,
+    line: Line,
+    limits: Limits,
+    n: int,
+) -> str:
+    """Why the grid has no film at position `n` either, or that it has one.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The shaft touches the bore.
+    """
+    one, own = np.array([n]), replace(limits, strict=True)
+    at_place = position[one], np.zeros((1, 2)), speed[one], line.at(one)
+    try:
+        grid.pressure(bearing, options, *at_place, own)
+    except SolverError as error:
+        return str(error).removeprefix("film 0: ")
+    except InputError as error:
+        said = re.sub(r"^eccentricity 0:", f"eccentricity {n}:", str(error))
+        raise InputError(said) from error
+    return 'no film on rung = "reduced"; "grid" has one'
+
+
+def settled_stiffness(
+    film: ComposedFilm,
+    line: Line,
+    equation: StripFilm,
+    place: Array,
+    least: float,
+    speed: float,
+    level: int,
+    last: tuple[Solution, Warmth],
+    limits: Limits,
+) -> Array:
+    """Stiffness, N/m, of a shaft that moves so slowly that the temperatures follow.
+
+    NaN where a film beside its `place` (4,) has no temperatures. There the `film` on the points of
+    a `level` is `least` clearances thick, with the temperatures of `last`.
+    """
+    bearing, size = film.bearing, 4 if film.whole else 2
+    step = DRIFT * least
+    ways = step * np.concatenate([np.eye(4)[:size], -np.eye(4)[:size]])
+    places, beside = place + ways, Line()
+    if film.whole:
+        bend = None if line.bend is None else np.repeat(line.bend, len(places), axis=0)
+        tilt = places[:, 2:] * bearing.clearance / bearing.radius
+        beside = Line(tilt=tilt, bend=bend)
+    speeds = np.full(len(places), speed)
+    given = bearing, film.options, equation, places[:, :2], speeds, beside, limits
+    moved = _AtPlaces(*given)
+    loads = np.full((len(places), size), np.nan)
+    for n in range(len(places)):
+        _, found = moved.found(n, [level], last)
+        if found.converged:
+            loads[n] = found.solution.linear.load[:size]
+    slopes = (loads[:size] - loads[size:]).T / (2.0 * step)
+    lengths = np.where(np.arange(size) < 2, 1.0, bearing.radius)  # those of tilts are arms
+    return np.asarray(slopes * np.outer(lengths, lengths) / bearing.clearance)
