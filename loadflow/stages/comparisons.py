@@ -46,7 +46,7 @@ SAMPLES = 5
 STEPS = 240
 """Steps of an orbit that are followed again, up to a little behind its largest eccentricity."""
 
-FORGOTTEN = 3
+FORGOTTEN = 6
 """Turns of a shaft after which it lies in its films as they have it, wherever it began."""
 
 HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
@@ -243,9 +243,11 @@ def _orbits(
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
         runs = _running_ratio(case, film)
-        if scene.shaft.coupled:  # ends that touch do so on any cells, and press as these have it
-            near = np.ones(2 * STEPS)
-            runs = np.where(np.convolve(film["in_contact"], near, "same") > 0.5, np.nan, runs)
+        if scene.shaft.coupled:  # ends that are too near fail on any cells, which say how far
+            gap = film["minimum_film"].values
+            fails = film["in_contact"].values | (gap < better.least_film)
+            near = np.convolve(fails, np.ones(2 * STEPS), "same") > 0.5
+            runs = np.where(near, np.nan, runs)
             if np.isnan(runs).all():
                 continue
         worst = int(np.nanargmax(runs))
