@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import maximum_filter1d
 
 from loadflow.cube import time_step
 from loadflow.errors import SolverError
@@ -243,11 +244,12 @@ def _orbits(
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
         runs = _running_ratio(case, film)
-        if scene.shaft.coupled:  # ends that are too near fail on any cells, which say how far
-            gap = film["minimum_film"].values
-            fails = film["in_contact"].values | (gap < better.least_film)
-            near = np.convolve(fails, np.ones(2 * STEPS), "same") > 0.5
-            runs = np.where(near, np.nan, runs)
+        if scene.shaft.coupled:
+            if film["in_contact"].any():  # then its smallest film is none, on any cells
+                continue
+            # ends that are too near fail, and cells say how far
+            near = film["minimum_film"].values < better.least_film
+            runs = np.where(maximum_filter1d(near, 2 * STEPS), np.nan, runs)
             if np.isnan(runs).all():
                 continue
         worst = int(np.nanargmax(runs))
