@@ -245,7 +245,8 @@ def _orbits(
         taken, finer = scene.journal.every(step), better.every(step)
         runs = _running_ratio(case, film)
         if scene.shaft.coupled:
-            if film["in_contact"].any():  # then its smallest film is none, on any cells
+            # all films are one system: where one touches, none goes on as on other cells
+            if any(bool(parts["journal"][name]["in_contact"].any()) for name in options):
                 continue
             # ends that are too near fail, and cells say how far
             near = film["minimum_film"].values < better.least_film
