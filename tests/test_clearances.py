@@ -9,7 +9,8 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.planning.plan import make_plan
+from loadflow.planning.pilot import Questions, measure
+from loadflow.planning.plan import chosen_models, make_plan
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft_place import floating
@@ -102,6 +103,30 @@ def test_a_plan_feeds_films_back_where_the_accuracy_asks_for_it():
     assert plan.accurate
     rough = make_plan(scene.model_copy(update={"accuracy": 1e6}))
     assert not CLEARANCES.is_on(rough.scene)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("turbine", ["windpact-1.5mw", "nrel-5mw"])
+def test_the_indicator_has_the_size_that_a_pilot_measures(turbine):
+    """Sized bearings at 12 m/s, whose ends do not touch."""
+    scene = make_scene(
+        {
+            "name": "sized",
+            "turbine": {"name": turbine},
+            "bearings": ["journal-cylindrical"],
+            "results": ["journal.film"],
+            "loads": {"wind_speeds": [12.0], "seeds": 1, "duration": 60.0},
+            "shaft": {"two_point": {"beam": {}}},
+        }
+    )
+    cases = tuple(list_cases(scene))
+    chosen = chosen_models(scene, cases).scene
+    assert CLEARANCES.is_on(chosen)
+    found = measure(Questions(chosen, (CLEARANCES.name,), 60.0, cases), cases[0])
+    sizes, indicated = found.sizes[CLEARANCES.name], CLEARANCES.indicator(estimated(scene))
+    for quantity in ("minimum film", "maximum pressure"):
+        ratio = sizes[quantity] / indicated[quantity]
+        assert 1 / CLEARANCES.smaller < ratio < CLEARANCES.larger(scene)
 
 
 def test_it_is_the_scene_s_that_states_supports_and_needs_two_films_on_a_beam():

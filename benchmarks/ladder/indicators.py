@@ -21,10 +21,10 @@ from loadflow.planning.plan import needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
-from loadflow.stages.effects.film import always_turns
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.registry import STAGES
+from loadflow.stages.turning import always_turns
 
 COUNTS = 0.01
 """Share of an answer below which nothing hangs on what an indicator says of it."""

@@ -173,7 +173,7 @@ def pilot(
             one
             for one in worth
             if one.model != "loads"
-            and (one.is_open(scene) or not one.is_on(scene))
+            and (one.is_open(scene) or not one.is_on(chosen))
             and not surely_small(chosen, one, known)
         ]
     effects, settled = tuple(one.name for one in worth), tuple[str, ...]()

@@ -45,6 +45,7 @@ from loadflow.running.verdicts_page import lifetime_table, verdict_sentence, ver
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
+from loadflow.stages.bores import told_bores
 from loadflow.studies.compare_words import drawn
 from loadflow.studies.lifetime_page import write_lifetime_tables
 
@@ -89,7 +90,7 @@ def write_report(folder: Path, again: bool = False) -> Path:
     lives, options = lifetime_of_loads(folder, scene, tables, force_of)
     sections = [*_sections(folder, scene, manifest, tables, force_of)]
     sections[2:2] = [lifetime_section(lives, options)] if lives else []  # behind overview and loads
-    facts, title = _facts(scene, manifest), f"loadflow: {scene.name}"
+    facts, title = _facts(scene, manifest, told_bores(tables)), f"loadflow: {scene.name}"
     beside = folder / TABLES
     kept = {*write_tables(beside, sections), *write_lifetime_tables(lives, beside)}
     for old in {*beside.glob("*.csv")} - kept:
@@ -122,7 +123,7 @@ def _made_of(folder: Path) -> str:
     return found.hexdigest()
 
 
-def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
+def _facts(scene: Scene, manifest: dict[str, Any], found: list[str]) -> dict[str, str]:
     loads = scene.loads
     source = (
         f"simulated, DLC {', '.join(loads.dlcs)}, category {loads.category}, {scene.turbine.name}"
@@ -130,7 +131,8 @@ def _facts(scene: Scene, manifest: dict[str, Any]) -> dict[str, str]:
         else f"{len(manifest['inputs'])} files"
     )
     short = manifest.get("shortfalls", [])
-    taken = manifest.get("taken", scene.taken)  # by the run: a resolved scene states all of it
+    # by the run: a resolved scene states all of it
+    taken = [*manifest.get("taken", scene.taken), *found]
     return {
         **({"Not accurate enough": "; ".join(short)} if short else {}),
         "Turbine": _turbine_fact(scene),

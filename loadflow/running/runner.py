@@ -53,6 +53,7 @@ from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
+from loadflow.stages.bores import told_bores
 from loadflow.storage import check_name
 
 log = logging.getLogger("loadflow.run")
@@ -249,7 +250,8 @@ def _run(
     if profile:
         profile.write(folder / FILE, where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    notes = (*scaling_note(scene), *friction_note(scene), *scene.taken)
+    bores = told_bores(tree.children)
+    notes = (*scaling_note(scene), *friction_note(scene), *scene.taken, *bores)
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 

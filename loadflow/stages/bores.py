@@ -10,8 +10,9 @@ process it is.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -29,6 +30,9 @@ from loadflow.stages.labelling import label
 from loadflow.stages.turning import SLOWEST
 
 Floats = NDArray[np.float64]
+
+ALIGNED = ("alignment_down", "alignment_left")
+"""What a run tells of the bores that follow the shaft."""
 
 STEP = 2.0
 """Distance of the wind speeds of steady operation, m/s."""
@@ -96,6 +100,20 @@ def following(bearing: xr.Dataset) -> xr.Dataset:
         return bearing
     mean = bearing["tilt"].weighted(bearing["weight"]).mean("sample")
     return bearing.assign(alignment=mean.assign_attrs(bearing["tilt"].attrs))
+
+
+def told_bores(tables: Mapping[str, Any]) -> list[str]:
+    """Say how bores are turned that follow the shaft, by the tables of a run, by stage."""
+    if "shaft" not in tables or ALIGNED[0] not in tables["shaft"]:
+        return []
+    shaft = tables["shaft"]
+    down, left = (shaft[name].isel(case=0).values for name in ALIGNED)
+    told = [
+        f"{name} by {1e3 * one:.2g} mrad about down and {1e3 * other:.2g} mrad about left"
+        for name, one, other in zip(shaft["bearing"].values, down, left)
+        if one or other
+    ]
+    return [f"bores aligned with the shaft at its usual load: {', '.join(told)}"] if told else []
 
 
 _KNOWN: dict[str, dict[str, Floats]] = {}

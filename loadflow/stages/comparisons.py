@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from scipy.ndimage import maximum_filter1d
 
 from loadflow.cube import time_step
 from loadflow.errors import SolverError
@@ -31,7 +32,7 @@ from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.shaft_in_films import in_motion
 from loadflow.stages.statistics import SLOPE
 from loadflow.stages.thrust import finer_grid, follows, samples_of, solved, tabulated
-from loadflow.stages.turning import is_parked, turning
+from loadflow.stages.turning import SLOWEST, is_parked, turning
 
 Parts = Mapping[str, Any]
 """What each stage gave for a case, by the name of the stage."""
@@ -45,6 +46,9 @@ SAMPLES = 5
 
 STEPS = 240
 """Steps of an orbit that are followed again, up to a little behind its largest eccentricity."""
+
+FORGOTTEN = 6
+"""Turns of a shaft after which it lies in its films as they have it, wherever it began."""
 
 HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 THINNING = 0.035  # 1/K, relative loss of viscosity of a mineral oil of VG 100 … 320 near 50 °C
@@ -240,16 +244,31 @@ def _orbits(
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
         runs = _running_ratio(case, film)
+        if scene.shaft.coupled:
+            # all films are one system: where one touches, none goes on as on other cells
+            if any(bool(parts["journal"][name]["in_contact"].any()) for name in options):
+                continue
+            # ends that are too near fail, and cells say how far
+            near = film["minimum_film"].values < better.least_film
+            runs = np.where(maximum_filter1d(near, 2 * STEPS), np.nan, runs)
+            if np.isnan(runs).all():
+                continue
         worst = int(np.nanargmax(runs))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
         begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
-        place, steps = film["eccentricity"].values[begin], min(STEPS, film.sizes["sample"] - begin)
+        lead = 0
+        if scene.shaft.coupled:  # a shaft in its films begins with a past of its own, and forgets
+            turn = 2.0 * np.pi / max(float(np.abs(film["speed"][begin])), SLOWEST)
+            lead = min(begin - formed, int(FORGOTTEN * turn / (step * taken)))
+        begin -= lead
+        place = film["eccentricity"].values[begin]
+        steps = min(STEPS + lead, film.sizes["sample"] - begin)
         stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
         known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
         steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
         # taken up in the middle, a film has no past: what it does before it has one is no answer
         if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
-            known = max(known, min(STEPS // 4, steps // 2))
+            known = max(known, min(STEPS // 4, (steps - lead) // 2) + lead)
         ours = film.isel(sample=slice(begin, begin + steps))
         series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
         loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))

@@ -48,10 +48,10 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
         dataset = reduced_dataset(reduced, force, moment, by_moment)
         groups[str(bearing)] = dataset.assign(_tilted(shaft.sel(bearing=bearing), reduced))
     if "alignment" in shaft:  # of the bores
-        turns = shaft["alignment"].drop_vars("bearing")
-        places = shaft["bearing"].values.tolist()
+        meaning = shaft["alignment"].attrs
+        turns = dict(zip(shaft["bearing"].values, shaft["alignment"].values))
         groups = {
-            name: group.assign(alignment=turns.isel(bearing=places.index(name)))
+            name: group.assign(alignment=("axis", turns[name], meaning))
             for name, group in groups.items()
         }
     return xr.DataTree.from_dict(groups)

@@ -18,7 +18,8 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
-from loadflow.stages.bores import bores, follow_the_shaft, with_bores
+from loadflow.stages.bores import ALIGNED, bores, follow_the_shaft, with_bores
+from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import labelled
 from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
@@ -168,13 +169,17 @@ def _largest(part: xr.Dataset) -> xr.Dataset:
         return xr.DataArray(values, places, ["bearing"]), units, meaning
 
     along_the_shaft = "largest force along the shaft"
-    return labelled(
-        {
-            "largest_load": of_places(radial, "N", "largest radial load"),
-            "largest_axial_load": of_places(along.max(axis=1), "N", along_the_shaft),
-            "largest_axial_load_time": of_places(at, "s", f"time of the {along_the_shaft}"),
-        }
-    )
+    found = {
+        "largest_load": of_places(radial, "N", "largest radial load"),
+        "largest_axial_load": of_places(along.max(axis=1), "N", along_the_shaft),
+        "largest_axial_load_time": of_places(at, "s", f"time of the {along_the_shaft}"),
+    }
+    if "alignment" in part:
+        turned = to_film(part["alignment"].transpose("bearing", "axis").values)
+        for name, values in zip(ALIGNED, turned.T):
+            about = f"turn of the bore about {name.split('_')[1]}, aligned with the shaft"
+            found[name] = of_places(values, "rad", about)
+    return labelled(found)
 
 
 def _agreement(part: xr.Dataset) -> xr.Dataset:

@@ -7,7 +7,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.scene.cases import Case
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.scene.scene import Scene
+from loadflow.wind.cases import LOAD_CASES, load_case
 
 SLOWEST = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
@@ -22,6 +23,14 @@ the loaded one of some π, draws no film in: the surfaces rest on each other."""
 def is_parked(case: Case) -> bool:
     """Whether a brake holds the shaft throughout, though a storm may pull it through its brake."""
     return case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].parked
+
+
+def always_turns(scene: Scene) -> bool:
+    """Whether the rotor turns through all load cases; of given series that is not known."""
+    if scene.loads.source == "files":
+        return True
+    rows = [load_case(dlc) for dlc in scene.loads.dlcs]
+    return all(row.operating and row.events == ("none",) for row in rows)
 
 
 def turning(samples: xr.Dataset, parked: bool = False) -> NDArray[np.bool_]:

@@ -17,6 +17,7 @@ from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import move_together
 from loadflow.stages.stage import with_settings
+from loadflow.stages.turning import always_turns
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
@@ -98,21 +99,22 @@ def closed_ends(at: Situation) -> dict[str, float]:
 
 
 def _indicator(at: Situation) -> Sizes:
-    """What is left of the film at an end, by `closed_ends` x: less by x (1 + x) of that."""
+    """What `closed_ends` x changes: of the film 0.3 x³, over what is left of it.
+
+    Pilots of the sized cylindrical bores of 1.5, 5 and 15 MW, 8 to 24 m/s, x from 0.9 to 3.9: the
+    film within a factor of four where its ends do not touch; where they do, from x = 2.7 on, the
+    roughness is left of it, 40 times less than without.
+    """
     found = [
-        {key: float(most * (first + second * most)) for key, (first, second) in _SHARES.items()}
-        for most in closed_ends(at).values()
+        {
+            "eccentricity ratio": 0.03 * x,
+            "minimum film": 0.3 * x**3,
+            "maximum pressure": min(0.1 * x**2, 0.9),
+            "friction power": 0.02 * x,
+        }
+        for x in closed_ends(at).values()
     ]
     return largest(found)
-
-
-_SHARES = {
-    "eccentricity ratio": (0.05, 0.0),
-    "minimum film": (1.0, 1.0),
-    "maximum pressure": (0.15, 0.0),
-    "friction power": (0.04, 0.0),
-}
-"""Changes of the answers over x and over x²; those of a shaft that bends for small x."""
 
 
 def _stated(scene: Scene) -> bool:
@@ -126,10 +128,10 @@ def _stated(scene: Scene) -> bool:
 def _switched(scene: Scene, on: bool) -> Scene | None:
     """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
 
-    None where these are no films that can be.
+    None where these are no films that can be, or the shaft stands at times.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
-    if journal is None:
+    if journal is None or (on and not always_turns(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
     if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
@@ -163,10 +165,12 @@ CLEARANCES = Effect(
     switched=_switched,
     stated=_stated,
     indicator=_indicator,
+    larger=lambda scene: 7.0,
+    smaller=5.0,
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
     'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '
-    "a thrust collar beside them must be self_aligning",
+    "a thrust collar beside them must be self_aligning, and the shaft never stand",
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))

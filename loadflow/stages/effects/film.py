@@ -21,6 +21,7 @@ from loadflow.stages.effects.situation import HOLLOW, Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
+from loadflow.stages.turning import always_turns
 from loadflow.wind.cases import STANDING, load_case
 
 THREE_P = 0.2
@@ -106,14 +107,6 @@ def no_bound_at_standstill(scene: Scene) -> float:
     pressure at their edges follows from no film: up to 1,700 times what is indicated.
     """
     return UNSURE if always_turns(scene) else UNKNOWN
-
-
-def always_turns(scene: Scene) -> bool:
-    """Whether the rotor turns through all load cases; of given series that is not known."""
-    if scene.loads.source == "files":
-        return True
-    rows = [load_case(dlc) for dlc in scene.loads.dlcs]
-    return all(row.operating and row.events == ("none",) for row in rows)
 
 
 def _may_move(scene: Scene) -> bool:
