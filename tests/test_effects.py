@@ -193,6 +193,23 @@ def test_a_film_is_warmed_by_an_oil_that_enters_with_the_stated_viscosity(cube):
     assert heat.lubricant(heat.inlet_temperature + 20).viscosity < 0.04
 
 
+@pytest.mark.parametrize("heat", [{}, {"kind": "film"}, {"growth": {"shell_expansion": 0.0}}])
+def test_a_film_without_heat_has_the_oil_and_the_clearance_with_which_it_enters(cube, heat):
+    """Else what heat seems to change is what another oil does."""
+    given = {"oil": "iso-vg-220", "inlet_temperature": 318.15, **heat}
+    journal = scene_of(cube, journal={"heat": given}).journal
+    cool = film_heat._with_heat(journal, on=False)
+    assert cool.heat is None
+    assert cool.lubricant == journal.heat.lubricant(318.15)
+    assert cool.lubricant.viscosity > 0.1
+    narrow = "growth" in heat  # the shaft alone grows
+    assert (cool.geometry.clearance < journal.geometry.clearance) == narrow
+    stated = scene_of(cube, journal={"lubricant": {"viscosity": 0.2}})
+    there = switched(stated, film_heat.HEAT, True)
+    back = switched(there, film_heat.HEAT, False).journal
+    assert back.lubricant.viscosity == pytest.approx(0.2, rel=1e-12)
+
+
 def test_a_shaft_that_stands_at_times_has_its_film_at_rest():
     data = {"name": "start", "results": ["journal.film"], "loads": {"dlc": "3.1"}}
     plan = make_plan(make_scene(data))

@@ -98,7 +98,10 @@ def _describe_cases(scene: Scene) -> Iterator[tuple[str, Found]]:
 
 
 def describe(parts: dict[str, xr.Dataset]) -> Found:
-    """Spread, damage and extreme of hub moments and bearing loads; mean of the bearing loads."""
+    """Spread, damage and extreme of hub moments and bearing loads; mean of the bearing loads.
+
+    And the slowest speed of the rotor, which films at low speed and κ follow.
+    """
     hub, bearings = parts["loads"]["hub_moment"], parts["shaft"]
     tracks = {
         ("tilt moment", "hub"): hub.sel(axis="y"),
@@ -123,6 +126,7 @@ def describe(parts: dict[str, xr.Dataset]) -> Found:
         if name != "M":  # the moment bearing is governed by the tilting moment
             found["radial force max", name] = radial.max()
         found["bearing load mean", name] = radial.mean()
+    found["slowest speed", "rotor"] = float(np.abs(parts["loads"]["speed"].values).min())
     return found
 
 

@@ -42,7 +42,7 @@ from benchmarks.ladder.physics_sizes import (
 from benchmarks.ladder.whole_runs import runs
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import Scene
+from loadflow.scene.scene import Scene, read_scene
 
 KEPT = ROOT / "docs" / "figures" / "physics.json"
 PAGE = ROOT / "docs" / "physics.md"
@@ -74,10 +74,29 @@ def ten_scenes() -> dict[str, Scene]:
     }
 
 
+JOBS = ("quick_look", "dlc_1_1", "dlc_3_1_startup", "dlc_4_2_shutdown", "dlc_6_4_idling")
+"""Pipelines whose pilots are measured beside the ten scenes, with all effects that they can have."""
+
+
+def jobs_asked() -> dict[str, Scene]:
+    """The pipelines of `JOBS`, as they are."""
+    return {name: read_scene(ROOT / "pipelines" / f"{name}.toml") for name in JOBS}
+
+
 def scenes(known: Found) -> Found:
-    """What the plan keeps of each scene after its pilot, and why."""
+    """What the plan keeps of each of the ten scenes after its pilot, and why."""
+    yield from _verdicts(ten_scenes(), known)
+
+
+def jobs(known: Found) -> Found:
+    """The same of the pipelines of `JOBS`."""
+    yield from _verdicts(jobs_asked(), known)
+
+
+def _verdicts(asked: dict[str, Scene], known: Found) -> Found:
+    """What a pilot with all questions measures of scenes, and what the plan then keeps."""
     done = {one["scene"] for one in known}
-    for name, scene in ten_scenes().items():
+    for name, scene in asked.items():
         if name in done:
             continue
         begun = time.process_time()
@@ -103,6 +122,7 @@ PARTS: dict[str, Callable[[Found], Found]] = {
     "sizes": sizes,
     **BESIDE,
     "scenes": scenes,
+    "jobs": jobs,
     "runs": runs,
 }
 """What is measured."""

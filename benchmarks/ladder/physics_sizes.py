@@ -143,13 +143,16 @@ def _left(known: Found, speeds: tuple[float, ...] = SPEEDS) -> Iterator[tuple[st
     yield from (place for place in product(TURBINES, speeds) if place not in there)
 
 
+def at_work(turbine: str, speed: float) -> Scene:
+    """Scene of `sizes`: all effects that a plan may take."""
+    return scene_of(turbine, loads={"wind_speeds": [speed]} | SHORT, accuracy=0.02)
+
+
 def sizes(known: Found) -> Found:
     """Measured size of every effect, by turbine and wind speed."""
     for turbine, speed in _left(known):
-        loads = {"wind_speeds": [speed]} | SHORT
-        scene = scene_of(turbine, loads=loads, accuracy=0.02)
         begun = time.process_time()
-        verdict = pilot(scene, effort=THOROUGH)
+        verdict = pilot(at_work(turbine, speed), effort=THOROUGH)
         print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
         if verdict is not None:
             yield {
@@ -163,22 +166,32 @@ def sizes(known: Found) -> Found:
 def elements(known: Found) -> Found:
     """Measured size of profile and tilt of rollers in a sized tapered pair, as `sizes`."""
     for turbine, speed in _left(known):
-        bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
-        made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
-        made |= {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
-        made |= {"loads": _tabulated(speed), "accuracy": "given"}
-        yield _measured(turbine, speed, Scene.model_validate(made), SLICED)
+        yield _measured(turbine, speed, on_rollers(turbine, speed), SLICED)
+
+
+def on_rollers(turbine: str, speed: float) -> Scene:
+    """Scene of `elements`: the sized pair of tapered rollers alone."""
+    bearing = machine(turbine)["candidates"]["tapered-pair"]["M"]
+    made = {"name": "physics", "turbine": {"name": turbine}, "results": RESULTS[2:]}
+    made |= {"bearings": {"M": bearing}, "shaft": {"moment": {}}}
+    made |= {"loads": _tabulated(speed), "accuracy": "given"}
+    return Scene.model_validate(made)
 
 
 def films(known: Found) -> Found:
     """Measured size of contact, shell and turbulence of films that have them, as `sizes`."""
-    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    effects = (film_effects.CONTACT, film_effects.SHELL, film_effects.TURBULENCE)
     for turbine, speed in _left(known):
-        wall = 0.1 * scene_of(turbine).journal.geometry.diameter
-        shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
-        film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
-        effects = (film_effects.CONTACT, film_effects.SHELL, film_effects.TURBULENCE)
-        yield _measured(turbine, speed, _warm_film(turbine, speed, film), *effects)
+        yield _measured(turbine, speed, touching(turbine, speed), *effects)
+
+
+def touching(turbine: str, speed: float) -> Scene:
+    """Scene of `films`: with asperities, a shell and turbulence."""
+    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
+    wall = 0.1 * scene_of(turbine).journal.geometry.diameter
+    shell = {"kind": "local", "compliance": 0.2 * wall / STEEL}
+    film = {"contact": stop["contact"], "shell": shell, "turbulence": {}}
+    return _warm_film(turbine, speed, film)
 
 
 def oil(known: Found) -> Found:
@@ -188,14 +201,19 @@ def oil(known: Found) -> Found:
     clearance of the scene is that at 20 °C.
     """
     for turbine, speed in _left(known):
-        journal = scene_of(turbine).journal
-        length, pressure = 0.7 * journal.geometry.width, journal.edge_pressure + FED
-        grooves = [
-            {"angle": angle, "length": length, "pressure": pressure}
-            for angle in (math.pi / 2, -math.pi / 2)
-        ]
-        scene = _warm_film(turbine, speed, {"supply": {"grooves": grooves}}, GROWTH)
+        scene = grooved(turbine, speed)
         yield _measured(turbine, speed, scene, film_effects.SUPPLY, film_heat.GROWTH)
+
+
+def grooved(turbine: str, speed: float) -> Scene:
+    """Scene of `oil`: with two grooves and a clearance that grows."""
+    journal = scene_of(turbine).journal
+    length, pressure = 0.7 * journal.geometry.width, journal.edge_pressure + FED
+    grooves = [
+        {"angle": angle, "length": length, "pressure": pressure}
+        for angle in (math.pi / 2, -math.pi / 2)
+    ]
+    return _warm_film(turbine, speed, {"supply": {"grooves": grooves}}, GROWTH)
 
 
 def _warm_film(
@@ -232,13 +250,11 @@ def fed_back(known: Found) -> Found:
     speed, as films at touching ends take long.
     """
     for turbine, speed in _left(known, speeds=(12.0,)):
-        loads = _tabulated(speed)
         sizes: dict[str, dict[str, float]] = {}
         refused: dict[str, str] = {}
         hub = None
         for name, seat in SEATS.items():
-            film = {"motion": "quasi-static", "tilt": True, "rung": "reduced"}
-            scene = scene_of(turbine, film=film, loads=loads, accuracy="given", **seat)
+            scene = on_seat(turbine, speed, seat)
             rigid = switched(scene, shaft_effects.STIFFNESS, False)
             assert rigid is not None
             (case,) = list_cases(scene)
@@ -250,6 +266,13 @@ def fed_back(known: Found) -> Found:
                 refused[name] = NO_ANSWER
         print(turbine, speed, sizes, refused, flush=True)
         yield {"turbine": turbine, "speed": speed, "sizes": sizes, "refused": refused}
+
+
+def on_seat(turbine: str, speed: float, seat: dict[str, Any]) -> Scene:
+    """Scene of `fed_back`: films at rest around a shaft that lies as bearings of `SEATS` let it."""
+    film = {"motion": "quasi-static", "tilt": True, "rung": "reduced"}
+    loads = _tabulated(speed)
+    return scene_of(turbine, film=film, loads=loads, accuracy="given", **seat)
 
 
 def _seated(scene: Scene, case: Case, hub: xr.Dataset) -> Answers:
@@ -271,7 +294,7 @@ def lateral(known: Found) -> Found:
         whole, without = (
             _mean(
                 PROBES["loads"].answers(scene, case, {})
-                for scene in [_realised(turbine, speed, lateral=kind)]
+                for scene in [realised(turbine, speed, lateral=kind)]
                 for case in list_cases(scene)
             )
             for kind in ("coherent", "independent")
@@ -297,7 +320,7 @@ def rotors(known: Found) -> Found:
         **{name: ("tower", grid) for name, grid in GRIDS.items()},
     }
     for turbine, speed in _left(known):
-        scene = _realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
+        scene = realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
         found: dict[str, list[Answers]] = {name: [] for name in variants}
         for case in list_cases(scene):
             field = wind.turbulence(scene, case, wind.FINEST, "fast")
@@ -315,7 +338,7 @@ def rotors(known: Found) -> Found:
         yield {"turbine": turbine, "speed": speed, "sizes": sizes}
 
 
-def _realised(turbine: str, speed: float, **loads: Any) -> Scene:
+def realised(turbine: str, speed: float, **loads: Any) -> Scene:
     """A scene of `REALISED` seeds of 120 s at a wind speed."""
     every = {"wind_speeds": [speed], "seeds": REALISED, "duration": 120.0}
     return scene_of(turbine, accuracy="given", loads=every | loads)

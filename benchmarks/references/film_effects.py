@@ -6,7 +6,8 @@ The reference bearing of [Jonuschies 2015] under a load of two periods, 40 steps
 time of a step over that without effects, and the largest difference from the rung "grid" with the
 same effects and cells, over the path. "rubbing" is three times the load at a
 tenth of the speed on rougher surfaces, of which asperities carry the share that is told. With
-``--costs`` it is the time alone, on both rungs, at rest and in motion.
+``--costs`` it is the time alone, on both rungs, at rest and in motion. Heat in motion finds one
+temperature of a series before its first step: it is told in steps that take as long.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from loadflow.errors import ValidityWarning
 from loadflow.journal import (
     Contact,
     Film,
+    FilmHeat,
     GasMixture,
     Groove,
     Growth,
@@ -75,16 +77,20 @@ COMBINED: dict[str, tuple[dict[str, Any], bool, float]] = {
 """By name: fields of the film, whether the shaft tilts, and the factor on the load."""
 
 WARM = Heat("iso-vg-68", inlet_temperature=318.15)
+OVER_AREA = FilmHeat("iso-vg-68", inlet_temperature=318.15)
 GROOVES = tuple(Groove(angle, length=1.575, pressure=0.6e6) for angle in (np.pi / 2, -np.pi / 2))
 ALONE: dict[str, tuple[str, ...]] = {
     "nothing": ("tilt", "contact", "shell", "turbulence everywhere", "supply"),
     "heat": ("heat, growth",),
 }
+WARMED = ("heat", "heat over the area")
+"""What costs at rest as `ALONE`, and in motion before the first step."""
 """Effects whose cost is told, by that without which their time is told."""
 
 COSTED = COMBINED | {
     "supply": ({"supply": Supply(GROOVES)}, False, 1.0),
     "heat": ({"lubricant": None, "heat": WARM}, False, 1.0),
+    "heat over the area": ({"lubricant": None, "heat": OVER_AREA}, False, 1.0),
     "heat, growth": (
         {"lubricant": None, "heat": replace(WARM, growth=Growth(shell_share=0.9))},
         False,
@@ -143,6 +149,29 @@ def costs() -> None:
             for name in effects:
                 told = (f"{a / b:.2g}" for a, b in zip(times(name), plain))
                 print(row(f"{name} / {without}", rung, *told), flush=True)
+        for name, told in _heat_costs(rung, force, speed).items():
+            print(row(name, rung, *told), flush=True)
+
+
+def _heat_costs(rung: str, force: np.ndarray, speed: np.ndarray) -> dict[str, tuple[str, str]]:
+    """Time at rest, of a step, and before the first one in steps without heat, by kind of heat.
+
+    Of paths of two lengths, both beyond the samples that tell their temperature.
+    """
+    found: dict[str, tuple[str, str]] = {}
+    plain: list[float] = []
+    lengths = (400, 1200) if rung == "reduced" else (80, 160)
+    for name in ("nothing", *WARMED):
+        film = replace(FILM, rung=rung, **COSTED[name][0])
+        still = partial(BEARING.equilibrium, force, speed, film, strict=False)
+        moving = [partial(path, film, False, 1.0, steps) for steps in lengths]
+        at_rest, short, long = (timed(run, 3, warm=True)[1] for run in (still, *moving))
+        step = (long - short) / (lengths[1] - lengths[0])
+        plain = plain or [at_rest, step]
+        before = (short - lengths[0] * step) / plain[1]
+        told = f"{step / plain[1]:.2g}, {before:.2g} steps before"
+        found[name] = f"{at_rest / plain[0]:.2g}", told
+    return found
 
 
 RESTS = 16

@@ -75,6 +75,11 @@ def make_series(time: ArrayLike, data: Mapping[str, ArrayLike]) -> xr.Dataset:
     xarray.Dataset
         Variables over ``time``.
 
+    Raises
+    ------
+    loadflow.errors.InputError
+        A variable that is not known, or does not have its shape.
+
     Examples
     --------
     >>> from loadflow.cube import make_series
@@ -82,13 +87,17 @@ def make_series(time: ArrayLike, data: Mapping[str, ArrayLike]) -> xr.Dataset:
     >>> series["speed"].attrs["units"]
     'rad/s'
     """
-    arrays = {}
+    arrays, count = {}, np.size(time)
     for name, values in data.items():
         if name not in VARIABLES or "bearing" in VARIABLES[name].dims:
             known = [k for k, v in VARIABLES.items() if "bearing" not in v.dims]
             raise InputError(f"unknown variable {name!r} of a load case; known are {known}")
         dims = [d for d in VARIABLES[name].dims if d != "case"]
-        arrays[name] = (dims, np.asarray(values), VARIABLES[name].attrs)
+        given = np.asarray(values)
+        asked = tuple(len(AXES) if d == "axis" else count for d in dims)
+        if all(d in ("axis", "time") for d in dims) and given.shape != asked:
+            raise InputError(f"{name}: must have the shape {asked}, got {given.shape}")
+        arrays[name] = (dims, given, VARIABLES[name].attrs)
     coords: dict[str, Any] = {"time": ("time", np.asarray(time, dtype=float), TIME.attrs)}
     if any("axis" in dims for dims, _, _ in arrays.values()):
         coords["axis"] = list(AXES)

@@ -71,6 +71,9 @@ class CollarSeries:
         Film below which the surfaces touch, m.
     tilts : bool
         Whether the shaft may be tilted.
+    span : (float, float), optional
+        Gaps between which its rows are tabulated, m; left out, half of the contact and the play.
+        Collars that differ little share the tables of one of them.
 
     Raises
     ------
@@ -96,6 +99,7 @@ class CollarSeries:
     film: Film
     contact: float
     tilts: bool = False
+    span: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
         check_film(self.film, knows_heat=True)
@@ -174,10 +178,15 @@ class CollarSeries:
         rate = rates(gap, weights)
         return self._told(loads, front, back, gap, residual, steps, inside, rate, FOLLOWED)
 
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Half of the contact, and the play: the gaps of its own tables, m."""
+        return 0.5 * self.contact, self.collar.play
+
     # --- inside ----------------------------------------------------------------------------------
     def _table(self, row: ThrustBearing) -> RowTable:
         cells = self.film.grid or (40, 20)
-        return RowTable(row, cells, 0.5 * self.contact, self.collar.play, self.tilts)
+        return RowTable(row, cells, *(self.span or self.ends), self.tilts)
 
     def _sides(
         self, force: ArrayLike, speed: ArrayLike, tilt: ArrayLike
@@ -319,7 +328,12 @@ _error_of: Callable[[RowTable, Film, float, float], float] = lru_cache(maxsize=2
 
 
 def _error(table: RowTable, film: Film, most: float, speed: float) -> float:
-    """Error of a table up to the next tenth of tilts, at a speed of one digit."""
+    """Error of a table up to the next tenth of tilts, at a speed and a viscosity of one digit."""
     tilt = min(math.ceil(10.0 * most) / 10.0, MOST)
-    digit = 10.0 ** math.floor(math.log10(speed))
-    return _error_of(table, film, tilt, round(speed / digit) * digit)
+    thick = replace(film.liquid, viscosity=_one_digit(film.liquid.viscosity))
+    return _error_of(table, replace(film, lubricant=thick), tilt, _one_digit(speed))
+
+
+def _one_digit(value: float) -> float:
+    digit = 10.0 ** math.floor(math.log10(value))
+    return round(value / digit) * digit

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from annotated_types import Ge, Gt, Le
+from annotated_types import Ge, Gt, Le, Lt
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.lubricant import Lubricant
@@ -260,11 +260,13 @@ class RingGrowth:
 
     The shaft, which turns, grows by its one temperature, R α_shaft (T_shaft − T_ref). The shell is
     a ring whose bore has the temperatures of the film's surface there; in its wall they obey
-    Laplace's equation, with the transfer of `FilmHeat.shell_transfer` at its outside. Its bore
-    moves as in plane thermal stress, order by order around. Outside free, the mean order widens it
-    by the mean temperature of the wall, orders from 2 on bend it without stress [Boley and Weiner
-    1960], hot places inward; the first only moves the bore, from whose centre the place of the
-    shaft is told. The bearing's own clearance is the one at `reference_temperature`.
+    Laplace's equation, with the transfer of `FilmHeat.shell_transfer` at its outside. It is as wide
+    as the bearing, and its side faces are free and pass on no heat: its bore moves by finite
+    elements in (r, z), order by order around, so that the ends follow what is warm beside them.
+    Outside free, the mean order widens it by the mean temperature of the wall, orders from 2 on
+    bend it, hot places inward [Boley and Weiner 1960]; the first only moves the bore, from whose
+    centre the place of the shaft is told. The bearing's own clearance is the one at
+    `reference_temperature`.
 
     Attributes
     ----------
@@ -272,13 +274,14 @@ class RingGrowth:
         Of the ring, m, above that of the bore.
     held : bool
         Whether the outside of the ring is held in place all round, by a stiff housing that does not
-        warm: the bore can then only grow inward. The first order counts, from the housing's middle.
+        warm, along which it may slide: the bore can then only grow inward. The first order counts,
+        from the housing's middle.
     shaft_expansion, shell_expansion : float
         α, of steel by default, 1/K.
     conductivity : float
         Of the shell, W/(m K).
     poisson_ratio : float
-        ν of the shell; only of one that is held.
+        ν of the shell, below 0.5.
     reference_temperature : float
         K.
 
@@ -295,13 +298,8 @@ class RingGrowth:
     shaft_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
     shell_expansion: Annotated[float, Ge(0), Le(1e-4)] = 11.7e-6
     conductivity: Annotated[float, Gt(0)] = 50.0
-    poisson_ratio: Annotated[float, Ge(0), Le(0.5)] = 0.3
+    poisson_ratio: Annotated[float, Ge(0), Lt(0.5)] = 0.3
     reference_temperature: Annotated[float, Gt(200)] = 293.15
-
-    def idle(self) -> Iterator[tuple[str, str]]:
-        """Fields without effect beside the others, and why."""
-        if not self.held:
-            yield "poisson_ratio", "held is false: a free ring has no stress along its wall"
 
     def __post_init__(self) -> None:
         check_fields(self)

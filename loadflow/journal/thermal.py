@@ -36,8 +36,14 @@ the temperatures (m,), K, by which their bearing has grown."""
 TOLERANCE, TRIES = 1e-6, 40
 """What is left of a heat balance, K, and the temperatures that are tried."""
 
-_WITHIN = 4
-"""Temperatures that are tried before the largest one is, or the coldest of a film that grows."""
+_WITHIN, _BEYOND = 4, 2
+"""Temperatures that are tried before the largest one is, or the coldest of a film that grows; and
+before the largest one is where the balance seems to lie beyond it."""
+
+_FLATTEST = -0.05
+"""Slope of a balance, K/K, up to which a secant is followed; where asperities rub more the warmer
+the film is, it falls by far less than one.
+"""
 
 _AHEAD = 10.0
 """Where a film warms so much that its balance lies this many times farther than the temperature at
@@ -233,12 +239,13 @@ class _Balance:
             if before is not None:
                 with np.errstate(divide="ignore", invalid="ignore"):
                     secant = (excess - before[1][active]) / (here - before[0][active])
-                slope = np.where(secant < -0.5, secant, slope)
+                slope = np.where(secant < _FLATTEST, secant, slope)
             before = warm.copy(), np.full(count, np.nan)
             before[1][active] = excess
             step = here - excess / slope
             inside = (step > low[active]) & (step < high[active])
-            at_end = (tries >= _WITHIN) & (high[active] == HOTTEST) & ~tested[active]
+            enough = (tries >= _WITHIN) | ((tries >= _BEYOND) & (step >= HOTTEST))
+            at_end = enough & (high[active] == HOTTEST) & ~tested[active]
             aside = np.where(at_end, HOTTEST, 0.5 * (low[active] + high[active]))
             # warmer oil is thinner: a load without a film at the coldest has none at all, mostly
             # even in a bearing that grows

@@ -36,6 +36,10 @@ Array = NDArray[np.float64]
 SAMPLES = 64
 """Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 
+FEW, SURELY = 8, 30.0
+"""Samples that tell about how warm the mean of all is; and by how much, K, their film must warm
+beyond any temperature for that of all to have no balance either."""
+
 MILDEST = 4
 """Loads of a series that go on to a more expensive model where the own one has a film for none."""
 
@@ -129,19 +133,36 @@ def series_temperature(
     some = np.unique(np.linspace(0, speed.size - 1, SAMPLES).round().astype(int))
     turning = np.abs(speed[some])
     some = some[turning >= SLOW * turning.max()]
+    severity = np.hypot(*force[some].T) / np.maximum(np.abs(speed[some]), 1e-300)
+    some = np.roll(some, -int(severity.argmin()))  # each starts from the one before, so mildly
     limits = Limits(1e-10, 60, strict=False, refine=False)
-    found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
+
+    def mean(some: NDArray[np.int64], limits: Limits, start: float | None = None) -> dict[str, Any]:
+        given = model, bearing, film, force[some], speed[some], line.at(some), limits
+        return _of_mean(*given, start)
+
+    start = None
+    if some.size > 2 * FEW:  # all of them are asked at few temperatures
+        few = some[np.linspace(0, some.size - 1, FEW).round().astype(int)]  # the mildest first
+        found = mean(few, limits)
+        _check_warmth(found, SURELY)
+        start = float(np.nanmax(found["temperature"])) if found["converged"].any() else None
+    if start is not None or some.size <= 2 * FEW:
+        found = mean(some, limits, start)
     if not found["converged"].any():
+        _check_warmth(found)
         severity = np.hypot(*force[some].T) / np.maximum(np.abs(speed[some]), 1e-300)
         some = np.sort(some[np.argsort(severity, kind="stable")[:MILDEST]])
         limits = replace(limits, refine=True)
-        found = _of_mean(model, bearing, film, force[some], speed[some], line.at(some), limits)
+        found = mean(some, limits)
     converged = found["converged"]
     if not converged.any():
-        least = np.hypot(*force[some].T).min()
+        _check_warmth(found)
+        size = np.hypot(*force[some].T)
         raise SolverError(
             "orbit cannot start: no heat balance of its mean friction and flow; at rest no film "
-            f"carries its mildest loads, from {least:.4g} N on"
+            f"carries its mildest loads, from {size.min():.4g} N on"
+            + _why_none(model, bearing, film, force, speed, line, int(some[size.argmin()]))
         )
     if np.mean(converged) < 1.0 - LEFT_OUT:
         largest = np.hypot(*force[some][converged].T).max()
@@ -163,8 +184,9 @@ def _of_mean(
     speed: Array,
     line: Line,
     limits: Limits,
+    start: float | None,
 ) -> dict[str, Any]:
-    """Films at the temperature of their mean friction and flow."""
+    """Films at the temperature of their mean friction and flow, first tried at `start`, K."""
 
     def solve(
         grown: JournalGeometry,
@@ -176,7 +198,38 @@ def _of_mean(
         return model.equilibrium(grown, cold, forces, speeds, line.at(places), limits)
 
     at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
-    return warm_film(at_rest, force, speed, film, shares, BALANCED, strict=False)
+    near = None if start is None else np.array([start])
+    return warm_film(at_rest, force, speed, film, shares, BALANCED, strict=False, start=near)
+
+
+def _check_warmth(found: dict[str, Any], least: float = BALANCED) -> None:
+    """Raise where films are found that warm by more than `least`, K, at every temperature."""
+    left = float(np.max(found["heat_residual"], initial=0.0))
+    if not found["converged"].any() and least < left < np.inf:
+        raise SolverError(
+            f"orbit cannot start: no heat balance below {HOTTEST} K; the mean friction of loads "
+            f"spread over the series still warms the film by {left:.3g} K"
+        )
+
+
+def _why_none(
+    model: Model,
+    bearing: JournalGeometry,
+    film: Film,
+    force: Array,
+    speed: Array,
+    line: Line,
+    index: int,
+) -> str:
+    """Why a load of the series has no film in the coldest oil."""
+    heat, one = cast("Heat", film.heat), np.array([index])
+    cold = replace(film.isothermal(), lubricant=heat.lubricant(heat.coldest))
+    grown = grown_by(bearing, heat, heat.coldest)
+    try:
+        model.equilibrium(grown, cold, force[one], speed[one], line.at(one), Limits(1e-10, 60))
+    except SolverError as error:
+        return f": {str(error).removeprefix('load 0: ')}"
+    return ""
 
 
 def _in_turns(

@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import gains, ladder, measured
+from loadflow.rolling.rating.modified_life import SLOW_POWER
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS
@@ -102,12 +103,17 @@ _FEW = {
 the torques of catalogues have that of the power."""
 
 
+_SPEED = tuple(Link(model, "slowest speed", of_load=False) for model in ("wind", "loads"))
+"""What makes the speed of the rotor; the shaft turns as fast."""
+
+
 def errors_beside(scene: Scene, known: Estimates) -> Errors:
     """Return the error of what a comparison makes of a run beside its results, by quantity.
 
     No accuracy is asked of these. Of rolling bearings the ladder holds what few samples in ideal
-    rolling are off; shares of a load, and the tilt of the shaft, follow the load as it is. Effects
-    that are left out count where they move the load, or the side flow itself.
+    rolling are off; shares of a load, and the tilt of the shaft, follow the load as it is, and κ
+    the slowest speed: its oil is as warm as the scene states. Effects that are left out count where
+    they move the load, or the side flow itself.
 
     Parameters
     ----------
@@ -144,6 +150,8 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
             name: of("rolling.friction", gain, *load_links("bearing load max"))
             for name, gain in _FEW.items()
         } | {"row share": whole}
+        speed = of("rolling.friction", "slowest speed", *_SPEED)
+        reached["viscosity ratio"] = None if speed is None else SLOW_POWER * speed
         found["rolling.friction"] = {
             name: _plus(share, few.get(name)) for name, share in reached.items()
         }

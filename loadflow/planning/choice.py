@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
-from loadflow.planning.effects import Estimates, concerned, switched
+from loadflow.planning.effects import Estimates, concerned, is_valid, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
@@ -212,7 +212,10 @@ class _Choosing:
             cost = self.seconds(scene_of(k)) if good.size else (0.0, float(excess[k]))
             return cost, float(left[k].sum())
 
-        best = min(good.tolist() or range(fewest.size), key=rank)
+        ranked = sorted(good.tolist() or range(fewest.size), key=rank)
+        # sections are chosen one by one: some do not go together, as a shaft that films hold
+        # against its tilt and films without it
+        best = next((k for k in ranked if is_valid(scene_of(k))), ranked[0])
         return scene_of(best), why
 
     def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:

@@ -67,7 +67,7 @@ def cost_of_effects(scene: Scene, stage: Stage) -> float:
     factor = 1.0
     for effect in effects_of(stage, scene):
         if effect.is_on(scene):
-            factor *= effect.cost(scene) if effect.cost else 1.0
+            factor *= effect.cost(scene)
     return factor
 
 

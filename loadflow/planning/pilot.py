@@ -13,11 +13,11 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, TypeVar
 
-import numpy as np
 from threadpoolctl import threadpool_limits
 
-from loadflow.errors import LoadflowError, SolverError
+from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
+from loadflow.planning.asked import Asked, changes, tried, without
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import chosen_models, needed_stages
@@ -25,7 +25,7 @@ from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
-from loadflow.stages.probes import PROBES, Answers, Probe, hardest
+from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
 
@@ -94,7 +94,8 @@ class Questions:
     cases : tuple of Case
         Those that are looked at.
     settled : tuple of str
-        Effects of these that are kept whatever their size: whether they can be on is asked alone.
+        Effects of these that are kept whatever their size: whether they can be on is asked alone,
+        and not even that of a model that surely answers, whose others are measured without them.
     """
 
     scene: Scene
@@ -106,12 +107,12 @@ class Questions:
     @property
     def models(self) -> tuple[str, ...]:
         """Models that have an effect to measure, in the order in which they are probed."""
-        found = {effect.model for effect in EFFECTS if effect.name in self.effects}
+        found = {effect.probed for effect in EFFECTS if effect.name in self.effects}
         return tuple(model for model in PROBES if model in found)
 
     def of_model(self, model: str, duration: float) -> Questions:
         """Those of one model alone, on a simulated case of `duration`, s."""
-        names = tuple(one.name for one in EFFECTS if one.model == model)
+        names = tuple(one.name for one in EFFECTS if one.probed == model)
         ours = tuple(name for name in self.effects if name in names)
         return replace(self, effects=ours, duration=duration)
 
@@ -244,7 +245,7 @@ def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[
         sizes = known.sizes(effect).values()
         matters = not sizes or max(sizes) > WORTH * least or effect.is_on(scene)
         both = switched(chosen, effect, not effect.is_on(chosen)) is not None
-        if matters and both and effect.model in PROBES:
+        if matters and both and effect.probed in PROBES:
             yield effect
 
 
@@ -263,11 +264,11 @@ def _to_decide(
         if _is_needed(scene, chosen, known, one) or _costs_nothing(chosen, one, cases)
     }
     open_ = {
-        one.model
+        one.probed
         for one in effects
-        if one.name not in settled or not PROBES[one.model].surely_answers
+        if one.name not in settled or not PROBES[one.probed].surely_answers
     }
-    asked = tuple(one.name for one in effects if one.model in open_)
+    asked = tuple(one.name for one in effects if one.probed in open_)
     return asked, tuple(name for name in asked if name in settled)
 
 
@@ -287,7 +288,7 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
 def _costs_nothing(chosen: Scene, effect: Effect, cases: tuple[Case, ...]) -> bool:
     """Whether the plan has the effect, and expects to take no less time without."""
     without = switched(chosen, effect, False)
-    if not effect.is_on(chosen) or without is None or effect.cost is None:
+    if not effect.is_on(chosen) or without is None:
         return False
     with_it, left = (
         [expected_seconds(one, name, cases) for name in needed_stages(one)]
@@ -328,9 +329,13 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
     refused: dict[str, str] = {}
     inputs: dict[str, Any] = dict(given or {})
     for model, probe in PROBES.items():
-        ours = [effect for effect in effects if effect.model == model]
+        ours = [effect for effect in effects if effect.probed == model]
         if not ours:
             continue
+        if probe.surely_answers:  # then nobody asks whether those that are kept go with others
+            for effect in (one for one in ours if one.name in questions.settled):
+                scene = switched(scene, effect, False) or scene
+            ours = [one for one in ours if one.name not in questions.settled or one.is_on(scene)]
         try:
             for name in probe.reads:
                 if name not in inputs:
@@ -339,9 +344,8 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             break  # the run itself says so of this case
         if not probe.can_answer(case, inputs):
             continue
-
-        def answers(one: Scene) -> Answers:
-            return probe.answers(one, case, inputs)  # noqa: B023  used within this turn
+        asked = Asked(probe, scene, case, inputs)
+        answers = asked.answers
 
         scene, best = _all_on(scene, ours, answers, refused)
         if isinstance(best, str):
@@ -353,12 +357,12 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             partner = scene if on else _alone(scene, effect, ours)
             if partner is None:
                 continue
-            with_it = best if partner is scene else _try(answers, partner)
-            left = _without(probe, effect, partner, case, inputs)
+            with_it = best if partner is scene else tried(answers, partner)
+            left = without(asked, effect, partner)
             if isinstance(with_it, str):
                 refused[effect.name] = with_it
             elif not isinstance(left, str):
-                sizes[effect.name] = _changes(with_it, left)
+                sizes[effect.name] = changes(with_it, left)
     return Found(sizes, refused, time.process_time() - started)
 
 
@@ -382,16 +386,16 @@ def _all_on(
     together = scene
     for effect in sorted(effects, key=lambda one: not one.is_on(scene)):  # those that it has first
         together = switched(together, effect, True) or together
-    best = _try(answers, together)
+    best = tried(answers, together)
     if not isinstance(best, str):
         return together, best
     together = scene
     for effect in effects:  # one by one: which of them cannot be?
         together = switched(together, effect, False) or together
-    best = _try(answers, together)
+    best = tried(answers, together)
     for effect in effects:
         more = switched(together, effect, True)
-        outcome = _try(answers, more) if more is not None else ""
+        outcome = tried(answers, more) if more is not None else ""
         if more is not None and not isinstance(outcome, str):
             together, best = more, outcome
         elif outcome:
@@ -407,35 +411,3 @@ def _alone(scene: Scene, effect: Effect, others: list[Effect]) -> Scene | None:
         if found is not None:
             return found
     return None
-
-
-def _without(
-    probe: Probe, effect: Effect, scene: Scene, case: Case, inputs: Mapping[str, Any]
-) -> Answers | str:
-    """What a probe answers without an effect that is on in the scene."""
-    if (mute := effect.muted(scene)) is not None:
-        return _try(lambda one: probe.answers(one, case, mute(inputs)), scene)
-    without = switched(scene, effect, False)
-    if without is None:
-        return "no such scene"
-    return _try(lambda one: probe.answers(one, case, inputs), without)
-
-
-def _try(answers: Callable[[Scene], Answers], scene: Scene) -> Answers | str:
-    """What a probe answers, or why it does not."""
-    try:
-        found = answers(scene)
-    except LoadflowError as error:
-        return str(error)
-    bad = [f"{bearing}: {what}" for (bearing, what), value in found.items() if np.isnan(value)]
-    return f"no answer for {bad[0]}" if bad else found
-
-
-def _changes(with_it: Answers, without: Answers) -> dict[str, float]:
-    """Largest relative change by quantity, over the bearings."""
-    found: dict[str, float] = {}
-    for (bearing, quantity), value in with_it.items():
-        other = without[bearing, quantity]
-        change = 0.0 if other == value else abs(other - value) / max(abs(value), 1e-300)
-        found[quantity] = max(found.get(quantity, 0.0), float(change))
-    return found

@@ -67,7 +67,6 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         groups=groups.items(),
         silent=silent,
         behind=behind.items(),
-        missing=_all_missing(data),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
@@ -84,23 +83,6 @@ def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | Non
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     return about["name"], about["unit"], cells
-
-
-def _all_missing(data: Mapping[str, Any]) -> list[tuple[str, list[str]]]:
-    """What of interval, error and band any number lacks, and the reasons with their rows.
-
-    For print, and where nothing points.
-    """
-    found: dict[str, dict[str, list[str]]] = {}
-    for key, about in data["quantities"].items():
-        for one in data["candidates"]:
-            for what, why in one["numbers"].get(key, {}).get("missing", {}).items():
-                rows = found.setdefault(what, {}).setdefault(why, [])
-                rows += [about["name"]] if about["name"] not in rows else []
-    return [
-        (what, [f"{why} ({', '.join(rows)})" for why, rows in whys.items()])
-        for what, whys in found.items()
-    ]
 
 
 def _tells_nothing(key: str, data: Mapping[str, Any]) -> str | None:
@@ -125,7 +107,7 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
         return Cell("")
     if number["value"] is None:
         return Cell("–", where=number["note"])
-    error = "" if number["error"] is None else f"± {percent(number['error'])} by models"
+    error = "" if number["error"] is None else _by_models(number["error"])
     seeds = "" if number["low"] is None else _by_seeds(number)
     sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
@@ -141,6 +123,15 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
     where, note = _where(number | {"note": ""}), number["note"]
     missing = tuple(number.get("missing", {}).items())
     return Cell(short(number["value"]), around, band, limit, where, note, state, link, missing)
+
+
+def _by_models(error: float) -> str:
+    """An error as a share; one that leaves no digit of the value as the factor that it is."""
+    told = f"± {percent(error)}" if error < _FACTOR else f"within a factor of {short(1 + error)}"
+    return f"{told} by models"
+
+
+_FACTOR = 2.0  # share from which an error is told as a factor
 
 
 def _by_seeds(number: Mapping[str, Any]) -> str:

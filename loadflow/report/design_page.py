@@ -50,6 +50,7 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
         best=checks[best] if best else None,
         start=checks.get("start"),
         rows=[*_rows(data, best)],
+        told_by_runs=[*_told_by_runs(data)],
         front=[*_front(data)],
         figure=to_svg(front_figure(data)),
         maps=[(one["keys"], to_svg(map_figure(data, k))) for k, one in enumerate(data["maps"])],
@@ -82,6 +83,17 @@ def _run_value(run: Mapping[str, Any] | None, key: str) -> str:
     if number["low"] is not None:
         bounds = f" ({short(number['low'])} … {short(number['high'])})"
     return f"{short(number['value'])}{bounds}"
+
+
+def _told_by_runs(data: Mapping[str, Any]) -> Any:
+    """Name, margins, their ratio and limits of each design that was run, as they were."""
+    for one in data["told_by_runs"]:
+        fast, run = (("–" if one[k] is None else short(one[k])) for k in ("fast", "run"))
+        both = one["fast"] and one["run"] is not None
+        share = short(one["run"] / one["fast"]) if both else "–"
+        name = "as given" if one["name"] == "start" else one["name"]
+        limits = "hold" if one["holds"] else "broken: " + ("; ".join(one["broken"]) or "no answer")
+        yield name, fast, run, share, limits, "good" if one["holds"] else "bad"
 
 
 def _front(data: Mapping[str, Any]) -> Any:

@@ -151,8 +151,7 @@ class _Judge:
         one = judged(run, self.folder)
         if self.spectrum is None:
             return one
-        scene = read_scene(run.folder / "scene.toml")
-        return with_bands(one, run, scene, self.spectrum, self.given)
+        return with_bands(one, run, self.spectrum, self.given)
 
 
 @dataclass(frozen=True)
@@ -285,10 +284,11 @@ def run_candidates(
         except LoadflowError as error:
             failures[name] = str(error)
             continue
-        manifest = _with_errors_beside(read_manifest(place), read_scene(place / "scene.toml"))
+        ran = read_scene(place / "scene.toml")  # with the effects that were decided on
+        manifest = _with_errors_beside(read_manifest(place), ran)
         tables = {key: node.to_dataset().load() for key, node in result.tree.children.items()}
         finished.append(
-            Finished(name, candidate.title, candidate.source, own, tables, manifest, place)
+            Finished(name, candidate.title, candidate.source, ran, tables, manifest, place)
         )
     if not finished:
         lines = "\n".join(f"  {name}: {why}" for name, why in failures.items())

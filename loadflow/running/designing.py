@@ -48,6 +48,7 @@ from loadflow.studies.design_result import (
     Front,
     Map,
     best_of,
+    check_name,
     front_of,
     most_room,
     scene_of_best,
@@ -237,7 +238,7 @@ def _check(
             break
         passed.append(point.tobytes())
         one, friction = told.space.at(point.tolist())
-        key = f"best-{hashlib.sha256(point.tobytes()).hexdigest()[:8]}"
+        key = check_name(point)
         chosen = {key: one.model_copy(update={"title": "best design"})}
         judged[key], failed = _run(loads, chosen, friction, folder, how)
         failures |= failed

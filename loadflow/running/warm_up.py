@@ -120,7 +120,7 @@ def without_own_kernels(questions: Questions, model: str) -> Questions | None:
 
     None where one of these is never asked to be out, but to have no size.
     """
-    ours = [one for one in EFFECTS if one.model == model and one.name in questions.effects]
+    ours = [one for one in EFFECTS if one.probed == model and one.name in questions.effects]
     if any(one.muted(switched(questions.scene, one, True) or questions.scene) for one in ours):
         return None
     asked = tuple(one.name for one in ours if not one.own_kernels)

@@ -59,7 +59,9 @@ class Journal(Section, BaseModel):
     over its full width.
 
     ``alignment`` is how far the bore is turned against the shaft that does not bend, rad: about
-    down and about left; only a film with ``tilt`` around a beam knows it.
+    down and about left; only a film with ``tilt`` around a beam knows it. ``"mean"`` is a bore that
+    was aligned with the shaft as it lies at its usual load: in steady operation over the lifetime,
+    or in the mean of given series.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -106,7 +108,7 @@ class Journal(Section, BaseModel):
     motion: Literal["quasi-static", "transient"] = "quasi-static"
     step: Positive | None = None
     tilt: bool = False
-    alignment: tuple[Slope, Slope] = (0.0, 0.0)
+    alignment: Literal["mean"] | tuple[Slope, Slope] = (0.0, 0.0)
     shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None

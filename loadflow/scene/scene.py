@@ -39,7 +39,6 @@ from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the
 from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
-from loadflow.scene.shaft_place import left_in_clearances
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
@@ -269,8 +268,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
         rolling = self.rolling if self.wants("rolling") else None
         lines, name = taken(self.turbine.name, shaft), self.turbine.name
         if films is not None:
-            beams = fitted(shaft, films, self._open_beams)
-            lines += [*beams, *left_in_clearances(self.shaft, films)]
+            lines += fitted(shaft, films, self._open_beams)
         return [*lines, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:

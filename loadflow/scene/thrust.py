@@ -24,6 +24,9 @@ class ThrustCollar(AxialBearing):
     if left out; ``play`` is what the collar moves from one row to the other, m. With a table
     ``heat`` the friction of the films warms their oil, which takes the place of ``lubricant``: each
     row has its own temperature, at rest that of each sample, in motion one for the whole series.
+
+    ``self_aligning`` pads stand on a carrier that turns with the collar: however the shaft tilts,
+    their films stay aligned, and give it no moment.
     """
 
     kind: Literal["thrust"] = "thrust"
@@ -31,6 +34,7 @@ class ThrustCollar(AxialBearing):
     back: Lands | None = None
     play: Positive = 4e-4
     heat: PadHeat | None = None
+    self_aligning: bool = False
 
     @model_validator(mode="after")
     def _one_oil(self) -> Self:
@@ -102,11 +106,15 @@ class ThrustCollar(AxialBearing):
         if tilt is None and time is None and self.heat is None:
             curves = CollarCurves(self.bearing, self.film_model, 0.5 * self.contact_film)
             return curves.equilibrium(force[:, 2], speed)
-        series = CollarSeries(self.bearing, self.film_model, self.contact_film, tilt is not None)
+        series = self.series(tilt is not None)
         turned = np.zeros(2) if tilt is None else tilt
         if time is None:
             return series.equilibrium(force[:, 2], speed, turned)
         return series.path(time, force[:, 2], speed, turned)
+
+    def series(self, tilts: bool, span: tuple[float, float] | None = None) -> CollarSeries:
+        """Its films on tables of its rows, or of those between the gaps of a `span`, m."""
+        return CollarSeries(self.bearing, self.film_model, self.contact_film, tilts, span)
 
     def cool(self) -> Self:
         """With its oil as it enters."""

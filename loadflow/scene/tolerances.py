@@ -211,7 +211,7 @@ class Toleranced:
     def is_turned(self, place: str) -> bool:
         """Whether the bore of a journal bearing is, or may be, out of line with its housing."""
         told = any(key.split(".")[0] == ALIGNMENT for key in self.tolerances.get(place, {}))
-        return told or self.journal.at(place).alignment != (0.0, 0.0)
+        return told or self.journal.at(place).alignment not in ("mean", (0.0, 0.0))
 
     def _moved(self, place: str, key: str, by: float) -> Self:
         """The bearings with a value of those of a place moved."""

@@ -362,6 +362,8 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         and not any(map(scene.shaft.bends_at, scene.thrust.collars))
     ):
         yield "thrust.tilt", "no shaft with a thrust collar is a beam"
+    if scene.thrust.tilt and all(one.self_aligning for one in scene.thrust.collars.values()):
+        yield "thrust.tilt", "pads that are self_aligning follow the collar"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"

@@ -238,6 +238,17 @@ class Beam:
         """The beam with rigid bearings in place of those that are solved, in their housings."""
         return replace(self, supports=tuple(replace(s, stiffness="given") for s in self.supports))
 
+    def free_in_films(self) -> Beam:
+        """The beam with rigid bearings in place of its films, in which it turns freely.
+
+        As films that give way under a moment let it; rigid bearings that take one would clamp it.
+        """
+        free = {"stiffness": "given", "takes_moment": False, "housing_tilt": None}
+        supports = tuple(
+            replace(one, **free) if one.stiffness == "journal" else one for one in self.supports
+        )
+        return replace(self, supports=supports)
+
     def stretches(self, end: float) -> list[tuple[float, float, ShaftSection]]:
         """Start, end (m from the hub centre) and section of each stretch up to `end`.
 

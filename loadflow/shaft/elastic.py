@@ -124,55 +124,92 @@ def elastic_reactions(
     loadflow.errors.SolverError
         A bearing without stiffness; the iteration with the models does not converge.
     """
-    count, bearings = len(places), len(positions)
-    supports = beam.supports_of(bearings)
-    end = max(*positions, *places)
-    kinds = np.repeat([False, True, False, True], [count, 1, bearings, bearings])
-    line = Stations(np.concatenate([places, [0.0], positions, positions]), kinds)
-    flexible, rigid = flexibility(beam, line, end), line.rigid(end)
-    # the two planes (v, v′) and (w, w′) in turn: (plane, station, n)
-    loads = np.zeros((2, line.place.size, forces.shape[2]))
-    loads[0, :count], loads[0, count] = forces[:, 1], hub_moment[2]
-    loads[1, :count], loads[1, count] = forces[:, 2], -hub_moment[1]
+    line = EquationsOf(beam, positions, locating, places, forces, hub_moment)
+    return line.motion(*line.equations.solve(line.supports, models, iteration))
 
-    parts = [
-        (k, c)
-        for k, support in enumerate(supports)
-        for c in range(4 if support.takes_moment else 2)
-    ]
-    support, component = np.array(parts).T
-    station, plane = count + 1 + support + bearings * (component // 2), component % 2
-    arms = np.where(np.repeat([[0, 1]], 2, axis=1) == plane[:, None], np.tile(rigid[station], 2), 0)
-    # the force along the shaft moves housings and frame as well, and no reaction moves it
-    soft, thrust = beam.compliance_of_bores(bearings), forces[:, 0].sum(axis=0)
-    bore = np.zeros((support.size, 6 * bearings))
-    bore.reshape(-1, bearings, 6)[np.arange(support.size), support] = _OF_BORE[component]
-    pushed = np.outer(soft[:, 6 * locating], thrust)
-    redundant = _Redundant(
-        support=support,
-        component=component,
-        unit=np.where(component < 2, 1.0, end),
-        arms=arms,
-        due=np.concatenate([rigid.T @ side for side in loads]),
-        bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
-        free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
-        housing=bore @ soft @ bore.T,
-        pushed=bore @ pushed,
-    )
-    reaction, base, convergence, converged = redundant.solve(supports, models, iteration)
 
-    loads[plane, station] -= reaction
-    moved = flexible @ loads + rigid @ base.reshape(2, 2, -1)
-    at = np.arange(count + 1, count + 1 + bearings)
-    reactions = np.zeros((bearings, 4, forces.shape[2]))
-    reactions[support, component] = reaction
-    motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
-    bow = curvature(beam, line, loads, np.array(positions), end).swapaxes(0, 1)
-    bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
-    turned = (soft @ bore.T @ reaction + pushed).reshape(bearings, 6, -1)[:, 3:]
-    return ShaftMotion(
-        *_across(reactions), *_across(motion), _across(bow)[0], turned, convergence, converged
-    )
+class EquationsOf:
+    """The equations of a shaft under all loads, and its motion by what solves them.
+
+    Parameters
+    ----------
+    beam, positions, locating, places, forces, hub_moment
+        As of `elastic_reactions`.
+    whole : bool
+        Whether every support has four components, also where it takes no moment.
+    """
+
+    def __init__(
+        self,
+        beam: Beam,
+        positions: tuple[float, ...],
+        locating: int,
+        places: Floats,
+        forces: Floats,
+        hub_moment: Floats,
+        whole: bool = False,
+    ) -> None:
+        count, bearings = len(places), len(positions)
+        self.beam, self.positions, self.supports = beam, positions, beam.supports_of(bearings)
+        end = self.end = max(*positions, *places)
+        kinds = np.repeat([False, True, False, True], [count, 1, bearings, bearings])
+        line = self.line = Stations(np.concatenate([places, [0.0], positions, positions]), kinds)
+        flexible, rigid = flexibility(beam, line, end), line.rigid(end)
+        self.flexible, self.rigid = flexible, rigid
+        # the two planes (v, v′) and (w, w′) in turn: (plane, station, n)
+        loads = self.loads = np.zeros((2, line.place.size, forces.shape[2]))
+        loads[0, :count], loads[0, count] = forces[:, 1], hub_moment[2]
+        loads[1, :count], loads[1, count] = forces[:, 2], -hub_moment[1]
+
+        parts = [
+            (k, c)
+            for k, support in enumerate(self.supports)
+            for c in range(4 if whole or support.takes_moment else 2)
+        ]
+        support, component = np.array(parts).T
+        station, plane = count + 1 + support + bearings * (component // 2), component % 2
+        self.station, self.plane, self.first = station, plane, count + 1
+        turn = np.repeat([[0, 1]], 2, axis=1) == plane[:, None]
+        arms = np.where(turn, np.tile(rigid[station], 2), 0)
+        # the force along the shaft moves housings and frame as well, and no reaction moves it
+        soft, thrust = beam.compliance_of_bores(bearings), forces[:, 0].sum(axis=0)
+        bore = np.zeros((support.size, 6 * bearings))
+        bore.reshape(-1, bearings, 6)[np.arange(support.size), support] = _OF_BORE[component]
+        self.soft, self.bore, self.pushed = soft, bore, np.outer(soft[:, 6 * locating], thrust)
+        self.equations = Redundant(
+            support=support,
+            component=component,
+            unit=np.where(component < 2, 1.0, end),
+            arms=arms,
+            due=np.concatenate([rigid.T @ side for side in loads]),
+            bent=np.where(plane[:, None] == plane, flexible[np.ix_(station, station)], 0.0),
+            free=np.einsum("rk,rkn->rn", flexible[station], loads[plane]),
+            housing=bore @ soft @ bore.T,
+            pushed=bore @ self.pushed,
+        )
+
+    def motion(
+        self,
+        reaction: Floats,
+        base: Floats,
+        convergence: Convergence,
+        converged: NDArray[np.bool_],
+    ) -> ShaftMotion:
+        """Motion by reactions (r, n) and that of the shaft's end, (4, n)."""
+        bearings, rows, loads = len(self.positions), self.equations, self.loads.copy()
+        loads[self.plane, self.station] -= reaction
+        moved = self.flexible @ loads + self.rigid @ base.reshape(2, 2, -1)
+        at = np.arange(self.first, self.first + bearings)
+        reactions = np.zeros((bearings, 4, loads.shape[2]))
+        reactions[rows.support, rows.component] = reaction
+        motion = np.concatenate([moved[:, at], moved[:, at + bearings]]).swapaxes(0, 1)
+        places = np.array(self.positions)
+        bow = curvature(self.beam, self.line, loads, places, self.end).swapaxes(0, 1)
+        bow = np.concatenate([bow, np.zeros_like(bow)], axis=1)
+        turned = (self.soft @ self.bore.T @ reaction + self.pushed).reshape(bearings, 6, -1)[:, 3:]
+        return ShaftMotion(
+            *_across(reactions), *_across(motion), _across(bow)[0], turned, convergence, converged
+        )
 
 
 def _across(full: Floats) -> tuple[Floats, Floats]:
@@ -184,7 +221,7 @@ def _across(full: Floats) -> tuple[Floats, Floats]:
 
 
 @dataclass(frozen=True)
-class _Redundant:
+class Redundant:
     """Equations of the reactions, one row for each component of each support.
 
     Attributes
@@ -320,7 +357,7 @@ class _Bearings:
 
     Attributes
     ----------
-    rows : _Redundant
+    rows : Redundant
         What the components of the supports are.
     models : mapping of int
         Models of bearings by number.
@@ -328,7 +365,7 @@ class _Bearings:
         Compliance of bearings without a model.
     """
 
-    rows: _Redundant
+    rows: Redundant
     models: Mapping[int, BearingModel]
     own: Floats
 

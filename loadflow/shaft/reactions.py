@@ -13,7 +13,15 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.shaft.elastic import BearingModel, Iteration, ShaftMotion, elastic_reactions
+from loadflow.shaft.beam import Beam
+from loadflow.shaft.elastic import (
+    BearingModel,
+    EquationsOf,
+    Iteration,
+    ShaftMotion,
+    elastic_reactions,
+)
+from loadflow.shaft.in_films import ShaftInFilms
 from loadflow.shaft.options import Concept
 
 GRAVITY = 9.80665
@@ -90,6 +98,53 @@ def bearing_loads(
         raise InputError(f"hub_force {force.shape} and hub_moment {moment.shape} must be alike")
     if time is not None and np.shape(time) != force.shape[1:]:
         raise InputError(f"time: shape must be {force.shape[1:]}, got {np.shape(time)}")
+    own, total, about_hub = _all_loads(concept, force, moment, tilt)
+    numbered = _numbered(concept, models or {})
+    if concept.beam is None:
+        across = _one_support if len(concept.bearings) == 1 else _two_supports
+        forces, moments = across(concept, total, about_hub)
+        motion = None
+    else:
+        iteration = Iteration(tolerance, strict)
+        motion = elastic_reactions(*_on_beam(concept, force, moment, own), numbered, iteration)
+        forces, moments = motion.force, motion.moment
+    forces[concept.locating, 0] = total[0]
+    return _dataset(concept, forces, moments, motion, time, bool(models))
+
+
+def shaft_in_films(
+    concept: Concept, hub_force: Floats, hub_moment: Floats, *, tilt: float = 0.0
+) -> ShaftInFilms:
+    """The shaft of a suspension as the films of its two bearings let it lie.
+
+    Parameters
+    ----------
+    concept, hub_force, hub_moment, tilt
+        As of `bearing_loads`; a suspension with a beam and two bearings.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `bearing_loads`; no beam, another number of bearings than two.
+    """
+    force, moment = _checked(hub_force, "hub_force"), _checked(hub_moment, "hub_moment")
+    if concept.beam is None or len(concept.bearings) != 2:
+        raise InputError("a shaft lies in films where it has a beam and two bearings")
+    own, total, _ = _all_loads(concept, force, moment, tilt)
+    return ShaftInFilms(EquationsOf(*_on_beam(concept, force, moment, own), whole=True), total[0])
+
+
+def films_dataset(concept: Concept, motion: ShaftMotion, along: Floats) -> xr.Dataset:
+    """Loads and motion (as of `bearing_loads`) of a shaft in films, with the force `along` it."""
+    forces = motion.force
+    forces[concept.locating, 0] = along
+    return _dataset(concept, forces, motion.moment, motion, None, True)
+
+
+def _all_loads(
+    concept: Concept, force: Floats, moment: Floats, tilt: float
+) -> tuple[list[tuple[float, Floats]], Floats, Floats]:
+    """Loads on the shaft beside those of the hub, all together, and their moment about the hub."""
     if not abs(tilt) < np.pi / 2:
         raise InputError(f"tilt = {tilt} rad: must be between -π/2 and π/2")
     down = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])
@@ -98,28 +153,17 @@ def bearing_loads(
     for position, extra in own:
         total += extra
         about_hub += _moment_of(position, extra)
-    numbered = _numbered(concept, models or {})
-    if concept.beam is None:
-        across = _one_support if len(concept.bearings) == 1 else _two_supports
-        forces, moments = across(concept, total, about_hub)
-        motion = None
-    else:
-        places = np.array([0.0, *(position for position, _ in own)])
-        pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
-        iteration = Iteration(tolerance, strict)
-        motion = elastic_reactions(
-            concept.beam,
-            concept.positions,
-            concept.locating,
-            places,
-            pushes,
-            moment,
-            numbered,
-            iteration,
-        )
-        forces, moments = motion.force, motion.moment
-    forces[concept.locating, 0] = total[0]
-    return _dataset(concept, forces, moments, motion, time, bool(models))
+    return own, total, about_hub
+
+
+def _on_beam(
+    concept: Concept, force: Floats, moment: Floats, own: list[tuple[float, Floats]]
+) -> tuple[Beam, tuple[float, ...], int, Floats, Floats, Floats]:
+    """The beam of a suspension, its bearings, and what acts on it, as of `elastic_reactions`."""
+    assert concept.beam is not None
+    places = np.array([0.0, *(position for position, _ in own)])
+    pushes = np.stack(np.broadcast_arrays(force, *(extra for _, extra in own)))
+    return concept.beam, concept.positions, concept.locating, places, pushes, moment
 
 
 def _checked(load: ArrayLike, name: str) -> Floats:

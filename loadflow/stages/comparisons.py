@@ -28,6 +28,7 @@ from loadflow.stages.reduction import governing_load
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.running_time import counted, running
 from loadflow.stages.shaft import bearing_loads
+from loadflow.stages.shaft_in_films import in_motion
 from loadflow.stages.statistics import SLOPE
 from loadflow.stages.thrust import finer_grid, follows, samples_of, solved, tabulated
 from loadflow.stages.turning import is_parked, turning
@@ -230,6 +231,10 @@ def _orbits(
 
     Of it count the samples around that in which the rotor runs, as in `_films`.
     """
+    if not options:
+        return
+    journal = next(iter(options.values())).model_copy(update={"own": options})
+    other = scene.model_copy(update={"journal": journal})
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
         step = time_step(parts["loads"])
@@ -249,7 +254,7 @@ def _orbits(
         series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
         loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
         try:
-            path = follow(better, loads, shaft.sel(bearing=bearing), place)
+            path = in_motion(other, bearing, loads, shaft.sel(bearing=bearing), place)
             theirs = extremes_of_orbit(path, known * taken // finer)
         except SolverError:
             theirs = dict.fromkeys(FILM, np.nan)

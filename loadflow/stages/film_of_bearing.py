@@ -66,13 +66,20 @@ def shaft_line(options: Journal, bearing: xr.Dataset) -> dict[str, np.ndarray]:
         for key, name in names.items()
     }
     if "tilt" in lying:
-        lying["tilt"] = lying["tilt"] - from_film(options.alignment)
+        lying["tilt"] = lying["tilt"] - _bore(options, bearing)
     return lying
+
+
+def _bore(options: Journal, bearing: xr.Dataset) -> np.ndarray:
+    """Turn of the bore (3,), rad, as stated, or as it follows the shaft that `bearing` tells of."""
+    if options.alignment == "mean":
+        return np.asarray(bearing["alignment"].values, dtype=float)
+    return from_film(options.alignment)
 
 
 def aligned(options: Journal, bearing: xr.Dataset) -> xr.Dataset:
     """Series of loads in which a shaft with `tilt` lies straight along its bore."""
-    held = from_film(np.array(options.alignment))
+    held = _bore(options, bearing)
     series = bearing.assign(moment=0.0 * bearing["moment"])
     if "tilt" in bearing:
         still = xr.zeros_like(bearing["tilt"]) + xr.DataArray(held, dims="axis")

@@ -28,6 +28,7 @@ from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.running_time import with_running
+from loadflow.stages.shaft_in_films import films_together, move_together, runs
 from loadflow.stages.stage import (
     Link,
     Links,
@@ -85,15 +86,35 @@ def orbit(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTree:
         No equilibrium to start from, or a step without an answer.
     """
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load()
+    together = _together(scene, loads)
     return xr.DataTree.from_dict(
         {
             bearing: with_running(
                 scene,
-                _moving(scene, bearing, loads, shaft.sel(bearing=bearing), is_parked(case)),
+                _moving(
+                    scene,
+                    bearing,
+                    loads,
+                    shaft.sel(bearing=bearing),
+                    is_parked(case),
+                    together.get(bearing),
+                ),
             )
             for bearing in scene.journal.bearings
         }
     )
+
+
+def _together(scene: Scene, loads: xr.Dataset) -> dict[str, tuple[xr.Dataset, float | None]]:
+    """Path and temperature of the films that are followed with the shaft, by bearing."""
+    from loadflow.turbines import load_turbine
+
+    tilt, found = load_turbine(scene.turbine.name).rotor.tilt, {}
+    for concept in scene.shaft.concepts:
+        if move_together(scene, concept) and runs(loads["speed"].values.astype(float)):
+            both = films_together(scene, concept, loads, tilt)
+            found |= dict(zip(concept.bearings, zip(both.path.paths, both.temperature)))
+    return found
 
 
 def _resting(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
@@ -187,7 +208,12 @@ def _bounds(path: xr.Dataset) -> dict[str, float]:
 
 
 def _moving(
-    scene: Scene, bearing: str, loads: xr.Dataset, reactions: xr.Dataset, parked: bool
+    scene: Scene,
+    bearing: str,
+    loads: xr.Dataset,
+    reactions: xr.Dataset,
+    parked: bool,
+    together: tuple[xr.Dataset, float | None] | None = None,
 ) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
     options = scene.journal.at(bearing)
@@ -200,15 +226,18 @@ def _moving(
     loads, reactions = loads.isel(time=every), reactions.isel(time=every)
     vectors = reactions["force"].transpose("time", "axis").values.astype(float)
     time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
-    begin, start = _lift_off(options, vectors, speed)
+    begin, start = (0, None) if together else _lift_off(options, vectors, speed)
     touching = np.arange(time.size) < begin  # later on, squeeze carries more than a film at rest
     found, kept = _nothing(options, time.size), kept_of(options)
     force, left = to_film(vectors), slice(begin, None)
     about: dict[str, float] = {}
     if begin < time.size:
         try:
-            past = AT_REST if begin else past_of(scene, loads)
-            path = follow(held, loads.isel(time=left), reactions.isel(time=left), start, past)
+            if together is None:
+                past = AT_REST if begin else past_of(scene, loads)
+                path = follow(held, loads.isel(time=left), reactions.isel(time=left), start, past)
+            else:
+                path, warm = together
         except SolverError as error:
             raise SolverError(f"bearing {bearing}: {error}") from error
         _take_path(found, path, left)
@@ -367,6 +396,7 @@ def _links(scene: Scene) -> Links:
     return {
         quantity: (
             *load_links("radial force max"),
+            Link("shaft", quantity),  # how the shaft lies in the bearing
             *(() if scene.journal.in_motion else (Link("reduction", end),)),
             Link("journal", quantity),
         )

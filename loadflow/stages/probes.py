@@ -22,7 +22,6 @@ from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
 from loadflow.stages.effects.situation import points, situation
 from loadflow.stages.film_of_bearing import (
     equilibria,
-    follow,
     shaft_line,
     surely_carried,
     surely_touching,
@@ -32,6 +31,7 @@ from loadflow.stages.loads import hub_loads
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
+from loadflow.stages.shaft_in_films import in_motion
 from loadflow.stages.thrust import follows, samples_of, solved
 from loadflow.stages.turning import SLOWEST, is_parked, turning
 
@@ -112,6 +112,8 @@ def _film_forms(case: Case, inputs: Mapping[str, Any]) -> bool:
 def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
     """Extremes and mean friction of each film around its largest load per speed that has one."""
     found: Answers = {}
+    fine = scene.journal.model_copy(update={"step": None})
+    every = scene.model_copy(update={"journal": fine})
     for bearing in scene.journal.bearings:
         journal = scene.journal.at(bearing)
         loads, shaft = inputs["loads"], inputs["shaft"].sel(bearing=bearing)
@@ -122,7 +124,7 @@ def _of_film(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
         stretch = _around(int(np.argmax(load)), formed)
         loads, shaft = loads.isel(time=stretch), shaft.isel(time=stretch)
         if journal.in_motion:
-            film = follow(journal, loads, shaft).isel(time=slice(_settled(loads), None))
+            film = in_motion(every, bearing, loads, shaft).isel(time=slice(_settled(loads), None))
         else:
             film = _at_rest(journal, loads, shaft)
         for name, value in extremes_of_orbit(film).items():

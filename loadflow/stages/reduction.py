@@ -47,6 +47,13 @@ def reduced_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.DataTr
         reduced = kept_samples(scene, speed, load, time, edges, source)
         dataset = reduced_dataset(reduced, force, moment, by_moment)
         groups[str(bearing)] = dataset.assign(_tilted(shaft.sel(bearing=bearing), reduced))
+    if "alignment" in shaft:  # of the bores
+        turns = shaft["alignment"].drop_vars("bearing")
+        places = shaft["bearing"].values.tolist()
+        groups = {
+            name: group.assign(alignment=turns.isel(bearing=places.index(name)))
+            for name, group in groups.items()
+        }
     return xr.DataTree.from_dict(groups)
 
 

@@ -16,15 +16,14 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
+from loadflow.stages.bores import follow_the_shaft, with_bores
 from loadflow.stages.labelling import labelled
+from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
 
 Floats = np.ndarray
-
-STILL = 0.01
-"""Share of the largest speed of a series, below which surfaces touch and no film is asked."""
 
 _GLIDING = 0.1  # share of the largest speed, above which a film changes with its logarithm
 
@@ -47,13 +46,17 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     )
     speed = series["speed"].values.astype(float)
     parts = [
-        _suspended(scene, concept, force, moment, speed, tilt) for concept in scene.shaft.concepts
+        _against_bores(shaft_on_films(scene, concept, series, tilt))
+        if move_together(scene, concept) and runs(speed)
+        else _suspended(scene, concept, force, moment, speed, tilt)
+        for concept in scene.shaft.concepts
     ]
     if scene.shaft.yaw is not None:
         parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
     if scene.shaft.pitch is not None:
         parts.append(pitch_loads(scene.shaft.pitch, *root_loads(series)))
     joined = xr.concat(parts, "bearing", combine_attrs="drop_conflicts").assign_attrs(_worst(parts))
+    joined = with_bores(scene, joined)
     return joined.assign_coords(time=series["time"]).astype("float32")
 
 
@@ -200,6 +203,8 @@ def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
     if not scene.shaft.coupled:
         return _described(scene)
+    if any(move_together(scene, concept) for concept in scene.shaft.concepts):
+        return "on journal, in motion"
     kinds = {
         f"{support.stiffness}, tilting"
         if support.stiffness == "journal" and support.takes_moment
@@ -234,7 +239,9 @@ STAGE = Stage(
     run=bearing_loads,
     needs=always("loads"),
     sections=lambda scene: (
-        ("shaft", "turbine", "journal", "rolling") if scene.shaft.coupled else ("shaft", "turbine")
+        *("shaft", "turbine"),
+        *(("journal", "rolling") if scene.shaft.coupled else ()),
+        *(("journal",) if follow_the_shaft(scene) and not scene.shaft.coupled else ()),
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

@@ -14,6 +14,7 @@ from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.bores import against_bore
 from loadflow.stages.film_summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.kept_samples import edges_of_cube, kept_samples
@@ -81,16 +82,16 @@ def samples_of(
 
     Vectors are in the frame of the cube; `tilt` (sample, axis) is there where it acts on the films.
     """
-    tilts = scene.thrust.tilt and bearing.kind == "thrust"
     moving = follows(scene, bearing)
     if scene.reduction.method != "histogram" and not moving:
-        reduced: xr.Dataset = inputs["reduction"][place].to_dataset()
-        names = ("tilt",) if tilts and "tilt" in reduced else ()
+        reduced = against_bore(inputs["reduction"][place].to_dataset())
+        names = ("tilt",) if _tilts(scene, bearing) and "tilt" in reduced else ()
         return reduced[["time", "speed", "weight", "force", "moment", *names]]
     loads, shaft = inputs["loads"].load(), inputs["shaft"].load().sel(bearing=place)
-    lies = tilts and "tilt" in shaft and bool(shaft["tilt"].notnull().all())
+    shaft = against_bore(shaft)  # pads stand in the housing of the bore
+    tilted = lies(scene, bearing, shaft)
     if moving:
-        return _whole(loads, shaft, lies)
+        return _whole(loads, shaft, tilted)
     force, moment = _vectors(shaft)
     kept = kept_samples(
         scene,
@@ -111,14 +112,24 @@ def samples_of(
         },
         {"axis": ["x", "y", "z"]},
     )
-    if not lies:
+    if not tilted:
         return found
     return found.assign(tilt=(axes, _tilt(shaft)[kept.index], label("rad", "tilt of the shaft")))
 
 
-def _whole(loads: xr.Dataset, shaft: xr.Dataset, lies: bool) -> xr.Dataset:
-    """The whole series as samples, one for each step."""
-    names = ("force", "moment", *(("tilt",) if lies else ()))
+def _tilts(scene: Scene, bearing: AnyAxial) -> bool:
+    return scene.thrust.tilt and bearing.kind == "thrust" and not bearing.self_aligning
+
+
+def lies(scene: Scene, bearing: AnyAxial, shaft: xr.Dataset) -> bool:
+    """Whether the tilt that a shaft has in a bearing acts on its films."""
+    known = "tilt" in shaft and bool(shaft["tilt"].notnull().all())
+    return _tilts(scene, bearing) and known
+
+
+def _whole(loads: xr.Dataset, shaft: xr.Dataset, tilted: bool) -> xr.Dataset:
+    """The whole series of one bearing as samples, one for each step; with its tilt or without."""
+    names = ("force", "moment", *(("tilt",) if tilted else ()))
     series = xr.merge([loads[["speed"]], shaft[[*names]]], compat="override", join="override")
     weight = np.ones(series.sizes["time"])
     found = series.assign(weight=("time", weight, label("1", "samples"))).rename(time="sample")
@@ -172,7 +183,7 @@ def solved(
         for name in ("force", "moment")
     )
     speed = samples["speed"].values.astype(float)
-    tilt = _in_frame(samples)
+    tilt = tilt_in_frame(samples)
     kept = KEPT | (WARM if bearing.kind == "thrust" and bearing.heat is not None else {})
     found = {name: np.full(speed.size, np.nan) for name in (*kept, "friction_torque")}
     found |= {"converged": np.zeros(speed.size, bool), "iterations": np.zeros(speed.size, int)}
@@ -222,7 +233,7 @@ def solved(
     ).assign_attrs(about)  # fmt: skip
 
 
-def _in_frame(samples: xr.Dataset) -> np.ndarray | None:
+def tilt_in_frame(samples: xr.Dataset) -> np.ndarray | None:
     """Tilt of the shaft (n, 2), rad, in the frame of the bearing; None where it does not act."""
     if "tilt" not in samples:
         return None

@@ -20,7 +20,7 @@ from loadflow.journal import Equilibrium
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_film
-from loadflow.studies.design_point import fast_journal
+from loadflow.studies.grown_films import fast_journal
 
 HEAVIER = 1.1
 """Factor on a load, for the power of it that an answer follows."""

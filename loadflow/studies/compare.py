@@ -50,6 +50,7 @@ from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
+from loadflow.studies.wear_bands import with_error
 from loadflow.verdict import Verdict, from_dataset
 
 _OF_CONES = "at rest and at one temperature, which the error by models does not count"
@@ -81,7 +82,7 @@ def compared(
     order = sorted(answers, key=lambda one: one.rank)
     return Comparison(
         name=scene.name,
-        conclusion=conclusion(order),
+        conclusion=conclusion(order, failures),
         candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
         shaft=drawn(scene),
@@ -182,7 +183,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
     yield "pump", replace(pump, error=error)
     yield "mixed_time", mixed_time(run, table, share, groups)
-    yield "wear", wear(run.scene, _bores(run), table, groups)
+    yield "wear", with_error(run, wear(run.scene, _bores(run), table, groups))
     yield from _lost(run, table, table["lost_power"], "")
 
 
@@ -255,8 +256,10 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         )  # fmt: skip
     yield from _rows(run)
     for name, number in rolling_risks(run.scene, run.folder, table, share):
-        few = "smallest load" if name == "minimum_load" else ""
-        yield name, replace(number, error=error_of(run, "rolling.friction", few))
+        few = {"minimum_load": "smallest load", "viscosity_ratio": "viscosity ratio"}.get(name)
+        if few is not None:
+            number = replace(number, error=error_of(run, "rolling.friction", few))
+        yield name, number
     losses = rolling_losses(run.scene, run.folder)
     if losses is not None:
         speed = losses.speed * 30 / np.pi

@@ -11,6 +11,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
+from loadflow.scene.journal import Journal
+from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_seeds import Draw
 
 SAMPLES = 40
@@ -19,7 +21,14 @@ SAMPLES = 40
 WIDEST = 16.0
 """Factor on load or viscosity beyond which nothing is asked."""
 
+LOADS, LINE = ("force", "moment"), ("tilt", "curvature")
+"""What acts on a bearing, and how the shaft lies in it."""
+
+NEVER = 1.05
+"""Over the least factor that is asked: with less, the limit was not reached."""
+
 _HALVINGS = 9
+_CLOSE = 2e-3  # logarithm of a factor: less than films of these models are good to
 
 
 @dataclass(frozen=True)
@@ -70,13 +79,65 @@ def largest_factor(holds: Callable[[float], bool]) -> float:
 
 def film_factors(value: Callable[[float, float], float], limit: float) -> tuple[float, float]:
     """Largest factor on the load, and smallest on the viscosity, with which a film is allowed."""
-    load = largest_factor(lambda f: value(f, 1.0) >= limit)
-    return load, 1.0 / largest_factor(lambda f: value(1.0, 1.0 / f) >= limit)
+    load = _crossing(lambda f: math.log(value(f, 1.0) / limit))
+    return load, 1.0 / _crossing(lambda f: math.log(value(1.0, 1.0 / f) / limit))
+
+
+def of_load(value: Callable[[float, float], float], load: float) -> float:
+    """A value of a film with a factor on the load alone."""
+    return value(load, 1.0)
 
 
 def pressure_factor(value: Callable[[float, float], float], limit: float) -> float:
     """Largest factor on the load with which a pressure is allowed."""
-    return largest_factor(lambda f: value(f, 1.0) <= limit)
+    return _crossing(lambda f: -math.log(value(f, 1.0) / limit))
+
+
+def _crossing(reserve: Callable[[float], float]) -> float:
+    """Factor to `_CLOSE` at which a reserve, which falls about as a power of it, is used up.
+
+    By secants through the logarithm of the factor between bounds, halved where there is no answer,
+    which is none of a factor that is too large; within `WIDEST`.
+    """
+
+    def known(x: float) -> float:
+        try:
+            found = reserve(math.exp(x))
+        except ValueError:  # logarithm of what is not there
+            return -math.inf
+        return found if math.isfinite(found) else -math.inf
+
+    widest = math.log(WIDEST)
+    (low, high), (below, above) = (-widest, widest), (math.nan, math.nan)
+    x, left, power = 0.0, known(0.0), 1.0
+    while True:
+        if left >= 0:
+            low, below = x, left
+        else:
+            high, above = x, left
+        if high - low < _CLOSE or low == widest or high == -widest:
+            return math.exp(low)
+        steep = (below - above) / (high - low)
+        if math.isfinite(steep) and steep > 0:
+            x = low + below / steep
+            inner = min(0.1 * (high - low), 0.4 * _CLOSE)  # the bounds close in from both sides
+            x = min(max(x, low + inner), high - inner)
+        elif math.isfinite(left) and math.isnan(steep):  # one bound is not known yet: beyond it
+            step = 1.2 * left / power + math.copysign(_CLOSE, left)
+            seen, (x, before) = x, (min(max(x + step, -widest), widest), left)
+            left = known(x)
+            if math.isfinite(left) and x != seen and (before - left) / (x - seen) > 0:
+                power = (before - left) / (x - seen)
+            continue
+        else:
+            x = 0.5 * (low + high)
+        left = known(x)
+
+
+def oil_told(bearing: Journal | AnyAxial, factor: float = 1.0) -> str:
+    """In words, the oil of a film, or one so many times as thick."""
+    where = "" if bearing.film_model.heat is None else " as it enters"
+    return f"oil of {1e3 * factor * bearing.film_model.liquid.viscosity:.3g} mPa s{where}"
 
 
 def reduced_samples(path: Path, place: str) -> xr.Dataset:
@@ -84,15 +145,27 @@ def reduced_samples(path: Path, place: str) -> xr.Dataset:
     return read_variables(path, ("force", "moment", "speed", "weight", "time"), place)
 
 
-def loads_at(
-    folder: Path, case: str, place: str, time: float
-) -> tuple[np.ndarray, np.ndarray, float]:
-    """Force and moment (3,) on a bearing, N and N m, and speed, rad/s, at a time of a case."""
-    loads = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
-    shaft = read_variables(folder / "shaft" / f"{case}.h5", ("force", "moment")).sel(bearing=place)
-    k = int(np.argmin(np.abs(loads["time"].values - time))) if math.isfinite(time) else 0
-    force, moment = (
-        shaft[name].isel(time=k).transpose("axis").values.astype(float)
-        for name in ("force", "moment")
-    )
-    return force, moment, float(loads["speed"].values[k])
+def series_of(folder: Path, case: str, place: str) -> xr.Dataset:
+    """What acts on a bearing through a case, and how the shaft lies in it.
+
+    `time`, `speed` (sample), `force`, `moment` and, of a shaft that bends, `tilt`, `curvature`
+    (sample, axis), in the frame of the cube.
+    """
+    speed = read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"]
+    shaft = read_variables(folder / "shaft" / f"{case}.h5", LOADS + LINE).sel(bearing=place)
+    known = [name for name in LOADS + LINE if name in shaft and bool(shaft[name].notnull().all())]
+    series = shaft[known].assign(speed=("time", speed.values)).rename(time="sample")
+    time = speed["time"].values.astype(float)
+    return series.drop_vars("sample", errors="ignore").assign(time=("sample", time))
+
+
+def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
+    """The one sample of a series that is nearest to a time, s; the first if none is known."""
+    k = int(np.argmin(np.abs(series["time"].values - time))) if math.isfinite(time) else 0
+    return series.isel(sample=[k])
+
+
+def grown(samples: xr.Dataset, factor: float) -> xr.Dataset:
+    """Samples with a factor on their loads, which the line of the shaft under them follows."""
+    names = [name for name in LOADS + LINE if name in samples]
+    return samples.assign({name: factor * samples[name] for name in names})

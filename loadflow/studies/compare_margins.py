@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
@@ -16,21 +16,28 @@ from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
 from loadflow.studies.compare_factor import (
+    NEVER,
     SAMPLES,
     WIDEST,
     Margin,
+    at_time,
     film_factors,
+    grown,
     largest_factor,
-    loads_at,
+    of_load,
+    oil_told,
     pressure_factor,
     reduced_samples,
+    series_of,
 )
 from loadflow.studies.compare_pads import pad_margins
 from loadflow.studies.compare_seeds import of_extreme, of_life, power_of_load
+from loadflow.studies.deviations import oil_of
+from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.tribology import lubricant
@@ -65,8 +72,10 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     """Factor on the loads with which a candidate reaches its first limit.
 
     The force on rolling elements is taken to grow with the load, and so does their equivalent load,
-    with a_ISO of each sample anew. Of a film, the sample with the smallest film and that with the
-    largest pressure are solved again at rest under larger or smaller loads.
+    with a_ISO of each sample anew. Of a journal bearing, the sample with the smallest film and that
+    with the largest pressure are solved again at rest under larger or smaller loads, warm and
+    around the shaft as it bends under these, where the run did so; of bearings of pads, see
+    `pad_margins`.
     """
     found: list[Margin] = []
     rooms = [room for room in ("journal", "thrust", "rolling") if room in tables]
@@ -78,8 +87,8 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         for place in table["bearing"].values.tolist():
             found += _film_margins(scene, folder, place, table.sel(bearing=place))
     if "thrust" in tables:
-        for place, one in scene.thrust.bearings.items():
-            found += pad_margins(one, folder, place, tables["thrust"].sel(bearing=place))
+        for place in scene.thrust.bearings:
+            found += pad_margins(scene, folder, place, tables["thrust"].sel(bearing=place))
     if "rolling" in tables:
         for place in scene.rolling.geometries:
             found += _rolling_margins(scene, folder, place, tables, verdicts)
@@ -102,7 +111,6 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
 def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> Iterator[Margin]:
     """Margins of smallest film and of largest pressure of one journal bearing."""
     stated = scene.journal.at(place)
-    options = stated.model_copy(update={"motion": "quasi-static", "rung": "grid"})
     if (table["in_contact"] > 0).any():
         case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
         yield Margin(0.0, place, case, f"shaft and shell touch in {place}", f"{place}: thicker oil")
@@ -118,16 +126,19 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        value = partial(_film_value, options, *_force_at(folder, case, place, time), answer)
+        sample = at_time(series_of(folder, case, place), time)
+        value = cache(partial(_film_value, fast_journal(stated), sample, answer))
         usual = value(1.0, 1.0)
         if usual > 0:
             allowed = limit / seen * usual  # motion changes a film by the same share there
+            change = ""
             if answer == "minimum_film":
                 factor, thinner = film_factors(value, allowed)
-                change = f"{place}: oil of {1e3 * thinner * options.lubricant.viscosity:.3g} mPa s"
+                if thinner > NEVER / WIDEST:
+                    change = f"{place}: {oil_told(stated, thinner)}"
             else:
-                factor, change = pressure_factor(value, allowed), ""
-            power = power_of_load(partial(value, oil=1.0), factor, WIDEST)
+                factor = pressure_factor(value, allowed)
+            power = power_of_load(partial(of_load, value), factor, WIDEST)
             drawn = of_extreme(table[name], pick, factor, power)
             models = "journal.film", answer.replace("_", " ")
             yield Margin(
@@ -136,22 +147,18 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
             )  # fmt: skip
 
 
-def _film_value(
-    options: Journal, force: np.ndarray, speed: float, field: str, load: float, oil: float
-) -> float:
-    """A value of the film at rest with factors on load and viscosity; NaN without an answer."""
-    if options.heat is None:
-        viscosity = options.lubricant.viscosity * oil
-        thinner = replace(options.lubricant, viscosity=viscosity)
-        options = options.model_copy(update={"lubricant": thinner})
-    answer = equilibria(options, load * force[None], np.array([speed]))
+def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, oil: float) -> float:
+    """A value of the film at rest with factors on load and viscosity; NaN without an answer.
+
+    The shaft lies as its beam says under so much load.
+    """
+    if oil != 1.0:
+        options = options.model_copy(update=oil_of(options, oil))
+    under = grown(sample, load)
+    force = under["force"].transpose("sample", "axis").values.astype(float)
+    lying = shaft_line(options, under)
+    answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
-
-
-def _force_at(folder: Path, case: str, place: str, time: float) -> tuple[np.ndarray, float]:
-    """Force (3,) on a bearing, N, and speed, rad/s, at a time of a case."""
-    force, _, speed = loads_at(folder, case, place, time)
-    return force, speed
 
 
 # --- rolling bearings -----------------------------------------------------------------------------

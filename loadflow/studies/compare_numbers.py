@@ -29,7 +29,7 @@ class Finished:
     name, title, source : str
         Of the candidate.
     scene : Scene
-        What was run.
+        What was run, with the effects that were decided on.
     tables : mapping
         Its results by stage.
     manifest : mapping

@@ -47,7 +47,7 @@ class Compared(NamedTuple):
 _SHORT, _CAPACITY, _OIL = "In short", "Capacity", "Oil"
 _TORQUE = "Friction torque of rolling bearings beside that of catalogues"
 _BEFORE = "What fails before rating life does"
-_SPEED = "follows the speed of the rotor, of which the ladder has no error"
+_NO_SPEED = "the slowest speed of the rotor was not measured on one of its models"
 
 QUANTITIES: dict[str, Compared] = {
     "load_factor": Compared(
@@ -82,14 +82,14 @@ QUANTITIES: dict[str, Compared] = {
     "film_parameter": Compared("film parameter Λ at low speed", "–", _BEFORE, "rolling"),
     "viscosity_ratio": Compared(
         "smallest viscosity ratio κ while turning", "–", _BEFORE, "rolling", rule=True,
-        no_error=_SPEED,
+        no_error=_NO_SPEED,
     ),
     "minimum_load": Compared(
         "smallest load over the dynamic capacity (skidding)", "%", _BEFORE, "rolling", rule=True
     ),
     "standstill": Compared(
         "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling",
-        no_error=_SPEED, no_band="loads decide it, no tolerance does",
+        no_band="loads decide it, no tolerance does",
     ),
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
     "mixed_time": Compared(
@@ -99,7 +99,6 @@ QUANTITIES: dict[str, Compared] = {
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",
         "µm", _BEFORE, "journal", at_most=True, rule=True,
-        no_error="the ladder has none; coefficients of wear differ by 2 to 5 from batch to batch",
     ),
     "friction_torque": Compared("mean friction torque, ours", "N m", _TORQUE, "rolling"),
     "palmgren_torque": Compared("after Palmgren", "N m", _TORQUE, "catalogues"),

@@ -155,6 +155,7 @@ class Judged:
             "source": self.source,
             "kind": self.kind,
             "holds": self.holds,
+            "broken": [f"{v.quantity} ({v.subject})" for v in self.broken],
             "reservations": self.reservations,
             "thrust": self.thrust,
             "governs": self.governs,

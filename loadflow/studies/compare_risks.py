@@ -123,7 +123,8 @@ def rolling_risks(
             float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
             case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
             place=place,
-            note="κ of what turns; ISO 281 ends at 0.1, full films begin at 1",
+            note="κ of what turns, at the stated temperature of the oil; ISO 281 ends at 0.1, full "
+            "films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
 
@@ -164,11 +165,15 @@ def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> N
 
 
 def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) -> Number:
-    """Share of the lifetime in which the shaft stands, and the largest pressure meanwhile."""
-    stands, worst = np.zeros(table.sizes["case"]), (0.0, "", "", math.nan)
+    """Share of the lifetime in which the shaft stands, and the largest pressure meanwhile.
+
+    Its error is that of what counts as standing: a tenth, and ten times, of that speed.
+    """
+    counted, worst = np.zeros((3, table.sizes["case"])), (0.0, "", "", math.nan)
     for k, case in enumerate(table["case"].values.tolist()):
-        series = read_variables(folder / "loads" / f"{case}.h5", ("speed",))
-        stands[k] = float((np.abs(series["speed"].values) < SLOWEST).mean())
+        speed = np.abs(read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"].values)
+        counted[:, k] = [(speed < factor * SLOWEST).mean() for factor in (1.0, *_THRESHOLDS)]
+    stands = counted[0]
     for place, case, some in _samples(scene, folder):
         still = np.abs(some["speed"].values) < SLOWEST
         if still.any():
@@ -181,16 +186,20 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     if not stands.any():
         told = "no load case of this run stands: marks of standing are not judged"
     else:
-        told = "; ".join(filter(None, (told, events(scene, table))))
+        counts = "± with a tenth, and ten times, of the 0.01 1/min below which it stands"
+        told = "; ".join(filter(None, (told, events(scene, table), counts)))
+    value, *others = 100 * (counted * share).sum(axis=1)
     low, high = interval(
         Groups.of(table),
         lambda some: 100 * float((stands[some] * share[some]).sum() / share[some].sum()),
     )
+    apart = max(abs(other - value) for other in others)
     return Number(
-        100 * float((stands * share).sum()),
+        float(value),
         "%",
         low,
         high,
+        float(apart / value) if value else math.nan,
         case=case,
         time=time,
         place=place,
@@ -214,6 +223,7 @@ def _samples(scene: Scene, folder: Path) -> Iterator[tuple[str, str, xr.Dataset]
 
 
 _SPREAD = 12
+_THRESHOLDS = 0.1, 10.0  # of `SLOWEST`
 
 
 def _equilibrium(scene: Scene, place: str, some: xr.Dataset) -> Any:

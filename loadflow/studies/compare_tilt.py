@@ -115,7 +115,7 @@ def _beam_through(concept: Concept, widths: Mapping[str, float]) -> tuple[Concep
         fits = line is concept
         note = "" if fits else f"of the shaft made narrower, to pass through {1e3 * narrow:.0f} mm"
     assert line.beam is not None
-    return replace(line, beam=line.beam.on_rigid_bearings()), note
+    return replace(line, beam=line.beam.free_in_films().on_rigid_bearings()), note
 
 
 def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, float]:

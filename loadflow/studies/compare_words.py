@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import xarray as xr
@@ -13,25 +13,32 @@ from loadflow.data import evidence
 from loadflow.quantities import CELSIUS
 from loadflow.scene.places import WRITTEN
 from loadflow.scene.scene import Scene
+from loadflow.studies.compare_factor import oil_told
 from loadflow.studies.compare_result import UNCARRIED, Judged
 from loadflow.studies.seed_intervals import Groups
 from loadflow.verdict import Verdict
 
 
-def conclusion(judged: Sequence[Judged]) -> str:
+def conclusion(judged: Sequence[Judged], without_answer: Collection[str] = ()) -> str:
     """How many hold, which loses least, what the other kind does; then what speaks against some.
+
+    Last, what was asked for and has no answer.
 
     Parameters
     ----------
     judged : sequence of Judged
         By their rank: the best is one without reservations wherever there is one. The second
         sentence is missing where no candidate that holds has any.
+    without_answer : collection of str
+        Names of candidates that could not be solved; they count among none.
     """
     against: dict[str, list[str]] = {}
     for one in judged:
         for name, what in one.reservations.items() if one.holds else ():
             against.setdefault(name, []).append(f"{one.title} ({what})")
     text = _sentence(judged)
+    if without_answer:
+        text += f" Without an answer, and not counted: {', '.join(without_answer)}."
     if not against:
         return text
     parts = (f"{name}: {'; '.join(those)}" for name, those in against.items())
@@ -42,9 +49,10 @@ def _sentence(judged: Sequence[Judged]) -> str:
     good = [one for one in judged if one.holds]
     if not good:
         least = max(judged, key=lambda one: _or_zero(one.numbers["load_factor"].value))
+        why = f"break {_listed(least.broken)}" if least.broken else "have parts without an answer"
         return (
             f"None of the {len(judged)} candidates holds all limits on these loads; nearest are "
-            f"{_named(least)}, which break {_listed(least.broken) or 'none that is known'}."
+            f"{_named(least)}, which {why}."
         )
     count, best = len(good), good[0]
     reserved = sum(bool(one.reservations) for one in good)
@@ -150,7 +158,7 @@ def bearings(scene: Scene, rooms: Sequence[str]) -> list[dict[str, Any]]:
                     "kind": f"journal, {size.shape.kind}",
                     "measures": f"D {1e3 * size.diameter:.0f} × B {1e3 * size.width:.0f} mm, "
                     f"clearance {1e3 * size.relative_clearance:.2f} ‰, "
-                    f"{1e3 * part.lubricant.viscosity:.3g} mPa s",
+                    f"{oil_told(part)}",
                 }
             )
     if "thrust" in rooms:

@@ -12,8 +12,6 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.line import Line
-from loadflow.journal.models.model import why_not
 from loadflow.rolling import RollingBearing, modified_spectrum_life, system_life
 from loadflow.rolling.rating.life import rating_life_spectrum
 from loadflow.scene.bearings import FurtherBearing
@@ -25,12 +23,8 @@ from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
-from loadflow.studies.grown_films import FACTORS, GrownFilms
+from loadflow.studies.grown_films import FACTORS, GrownFilms, fast_journal
 from loadflow.studies.shaft_through import BentShaft
-
-COARSE = (48, 12)
-"""Cells at most of a film that is solved on the grid."""
-
 
 _CONDITION = "smallest ratio of what else is allowed to what is found, 1 at the limit"
 _UNITS = {
@@ -169,17 +163,6 @@ def judge_design(
 
 
 # --- films ----------------------------------------------------------------------------------------
-
-
-def fast_journal(options: Journal) -> Journal:
-    """A journal bearing at rest by the cheapest model of cells that knows all of it."""
-    still = options.model_copy(update={"motion": "quasi-static"})
-    line = Line(moment=np.zeros((1, 2))) if options.tilt else Line()
-    reduced = still.model_copy(update={"rung": "reduced", "grading": "auto"})
-    if why_not("at_rest", reduced.film_model, options.geometry, line) is None:
-        return reduced
-    around, across = (min(cells) for cells in zip(options.grid, COARSE))
-    return still.model_copy(update={"rung": "grid", "grid": (around, across)})
 
 
 def _add_film(

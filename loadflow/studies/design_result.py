@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import hashlib
 import io
 import math
 from collections.abc import Mapping, Sequence
@@ -32,6 +33,11 @@ SHOWN = {
 """Factor and unit in which a number is shown."""
 
 _ALL = 100.0  # %, of the tilt that a bearing allows
+
+
+def check_name(point: np.ndarray) -> str:
+    """Name of the run that checks a design."""
+    return f"best-{hashlib.sha256(point.tobytes()).hexdigest()[:8]}"
 
 
 @dataclass(frozen=True)
@@ -130,6 +136,22 @@ class Designs:
         """Numbers of the run of the best design."""
         names = [name for name in self.judged if name != "start"]
         return self.judged[names[-1]] if self.best is not None and names else None
+
+    @property
+    def told_by_runs(self) -> list[dict[str, Any]]:
+        """Margin of each design that was run, by the fast models and by its run, in that order."""
+        fast = {check_name(p): one.load_factor for p, one in zip(self.points, self.answers)}
+        fast["start"] = self.given.load_factor
+        return [
+            {
+                "name": name,
+                "fast": plain(fast[name]),
+                "run": plain(one.numbers["load_factor"].value),
+                "holds": one.holds,
+                "broken": one.as_dict()["broken"],
+            }
+            for name, one in self.judged.items()
+        ]
 
     @property
     def settings(self) -> dict[str, str]:
@@ -256,6 +278,7 @@ class Designs:
                 }
                 for one in self.maps
             ],
+            "told_by_runs": self.told_by_runs,
             "checks": {name: one.as_dict() for name, one in self.judged.items()},
             "failures": self.failures,
         }

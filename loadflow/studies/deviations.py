@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,6 +21,7 @@ from loadflow.scene.thrust import Thrust
 from loadflow.scene.tolerances import ALIGNMENT, Toleranced
 from loadflow.stages.comparisons import THINNING
 from loadflow.stages.rolling_at_work import as_stated, rest
+from loadflow.studies.pad_films import span_of
 from loadflow.studies.wear_bands import Rubbing
 from loadflow.tribology import lubricant
 
@@ -49,12 +50,21 @@ class Built:
         Of `loadflow.studies.load_spectrum.load_spectrum`.
     rubbing : Rubbing, optional
         What wears the bores most, where they wear.
+    spans : mapping
+        Gaps of the tables of thrust collars, m, by place: those of the bearings as stated, which
+        they share with all their ends. Left out, those of the collars of the candidate.
     """
 
     candidate: Candidate
     friction: Friction
     spectrum: xr.DataTree
     rubbing: Rubbing | None = None
+    spans: Mapping[str, tuple[float, float] | None] | None = None
+
+    def __post_init__(self) -> None:
+        if self.spans is None:
+            pads = self.candidate.thrust.bearings if self.candidate.thrust else {}
+            object.__setattr__(self, "spans", {name: span_of(one) for name, one in pads.items()})
 
 
 @dataclass(frozen=True)
@@ -156,7 +166,7 @@ def _changed(
         update["journal"] = one.journal.model_copy(update=journal(one.journal) | {"own": own})
     if one.thrust is not None and pads is not None:
         bearings = {place: pads(bearing) for place, bearing in one.thrust.bearings.items()}
-        update["thrust"] = Thrust(bearings=bearings)
+        update["thrust"] = one.thrust.model_copy(update={"bearings": bearings})
     if one.rolling is not None and rolling is not None:
         further = [part.model_copy(update=rolling(part)) for part in one.rolling.further]
         first: Rolling = one.rolling
@@ -189,9 +199,7 @@ def _with_viscosity(built: Built, share: float) -> Built:
     factor = 1.0 + share
 
     def journal(one: Journal) -> dict[str, Any]:
-        if one.heat is not None:
-            return {"heat": replace(one.heat, oil=one.heat.liquid.scaled(factor))}
-        return {"lubricant": _thicker(one.lubricant, factor)}
+        return oil_of(one, factor)
 
     def pads(bearing: Any) -> Any:
         return bearing.with_viscosity(factor)
@@ -237,6 +245,13 @@ def _with_roughness(built: Built, share: float) -> Built:
     return _changed(built, journal=rubbing, pads=pads, friction=rougher)
 
 
+def oil_of(one: Journal, factor: float) -> dict[str, Any]:
+    """Keys of a journal bearing whose oil is so many times as thick, at all temperatures."""
+    if one.heat is not None:
+        return {"heat": replace(one.heat, oil=one.heat.liquid.scaled(factor))}
+    return {"lubricant": _thicker(one.lubricant, factor)}
+
+
 def _thicker(oil: Any, factor: float) -> Any:
     return replace(oil, viscosity=factor * oil.viscosity)
 
@@ -258,9 +273,10 @@ def _as_viscous(friction: Friction, factor: float) -> float:
 def _misaligned(built: Built, angle: float) -> Iterator[Tolerance]:
     """A shaft that lies askew by `angle`, rad, up, down and to both sides.
 
-    Journal bearings take the angle beside that of the bent shaft; those in which the shaft tilts
-    freely, and pads, take none. Rolling bearings between which the shaft is held take the moment
-    that would turn them so far; one that takes the tilting moment has all of it from the loads.
+    Journal bearings, and thrust collars beside them, take the angle beside that of the bent shaft;
+    those in which the shaft tilts freely, and cones, take none. Rolling bearings between which the
+    shaft is held take the moment that would turn them so far; one that takes the tilting moment has
+    all of it from the loads.
     """
     one = built.candidate
     if one.journal is not None:
@@ -291,7 +307,10 @@ def _askew(built: Built, way: tuple[float, float], lying: bool) -> Built:
 
 
 def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
-    """The spectrum with a tilt (y, z) added to that of the shaft, or alone."""
+    """The spectrum with a tilt (y, z) added to that of the shaft, or alone.
+
+    `pad_tilt` is that of collars, which may follow the shaft where the bores do not.
+    """
     assert built.candidate.journal is not None
     groups = {}
     for place in built.candidate.journal.bearings:
@@ -299,7 +318,9 @@ def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
         none = xr.zeros_like(samples["force"])
         tilt, bend = (samples[name] if lying else none for name in ("tilt", "curvature"))
         extra = xr.DataArray([0.0, *way], dims="axis")
-        groups[place] = samples.assign(tilt=tilt + extra, curvature=bend)
+        thrust = built.candidate.thrust
+        held = samples["tilt"] if thrust and thrust.tilt and "tilt" in samples else none
+        groups[place] = samples.assign(tilt=tilt + extra, curvature=bend, pad_tilt=held + extra)
     return _tree(built.spectrum, groups)
 
 

@@ -8,11 +8,28 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 
 FACTORS = np.geomspace(1 / 8, 8, 25)
 """Factors on the loads among which that is sought with which a film reaches its limit."""
+
+
+COARSE = (48, 12)
+"""Cells at most of a film that is solved on the grid."""
+
+
+def fast_journal(options: Journal) -> Journal:
+    """A journal bearing at rest by the cheapest model of cells that knows all of it."""
+    still = options.model_copy(update={"motion": "quasi-static"})
+    line = Line(moment=np.zeros((1, 2))) if options.tilt else Line()
+    reduced = still.model_copy(update={"rung": "reduced", "grading": "auto"})
+    if why_not("at_rest", reduced.film_model, options.geometry, line) is None:
+        return reduced
+    around, across = (min(cells) for cells in zip(options.grid, COARSE))
+    return still.model_copy(update={"rung": "grid", "grid": (around, across)})
 
 
 class GrownFilms:

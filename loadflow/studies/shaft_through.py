@@ -17,6 +17,7 @@ from loadflow.scene.scene import Candidate, Scene
 from loadflow.scene.shaft import Shaft
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.shaft.options import Concept
+from loadflow.stages.bores import following
 
 Array = NDArray[np.float64]
 
@@ -131,6 +132,9 @@ class BentShaft:
     def lying(self, candidate: Candidate, place: str, samples: xr.Dataset) -> xr.Dataset:
         """Samples of a place with `tilt` and `curvature` of the shaft that fits a candidate.
 
+        And the `alignment` of a bore that follows it in their mean. The shaft is that which bends:
+        how it tilts in the clearances of a candidate is left out.
+
         Parameters
         ----------
         candidate : Candidate
@@ -141,15 +145,29 @@ class BentShaft:
             Of `loadflow.studies.load_spectrum.load_spectrum`, of that place.
         """
         fits = self.fitting(candidate)
-        if fits is self.concept:
+        if fits is not self.concept or self._floats:
+            before, after = (
+                _bent(one, self.gravity, place, samples) for one in (self.concept, fits)
+            )
+            # what supports and housings do stands in the samples; the beam alone is another one,
+            # and so are the clearances that it floats in
+            changed = {}
+            for name in _LIE:
+                bent = after[name] if self._floats else after[name] - before[name]
+                more = xr.DataArray(bent, dims=("axis", "sample"))
+                known = xr.zeros_like(samples[name]) if self._floats else samples[name]
+                changed[name] = known + more
+            samples = samples.assign(changed)
+        journal = candidate.journal
+        if journal is None or place not in journal.bearings:
             return samples
-        before, after = (_bent(one, self.gravity, place, samples) for one in (self.concept, fits))
-        # what supports and housings do stands in the samples; the beam alone is another one
-        changed = {
-            name: samples[name] + xr.DataArray(after[name] - before[name], dims=("axis", "sample"))
-            for name in _LIE
-        }
-        return samples.assign(changed)
+        return following(samples) if journal.at(place).alignment == "mean" else samples
+
+    @property
+    def _floats(self) -> bool:
+        """Whether the shaft of the samples lies in films of its own, beside those of candidates."""
+        assert self.concept.beam is not None
+        return any(support.stiffness == "journal" for support in self.concept.beam.supports)
 
 
 def fitting_shaft(scene: Scene, candidate: Candidate) -> Shaft:
@@ -163,7 +181,7 @@ def fitting_shaft(scene: Scene, candidate: Candidate) -> Shaft:
 def _bent(concept: Concept, gravity: float, place: str, samples: xr.Dataset) -> dict[str, Array]:
     """Tilt, rad, and curvature, 1/m, of the shaft in a bearing under the hub loads of samples."""
     assert concept.beam is not None
-    rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
+    rigid = replace(concept, beam=concept.beam.free_in_films().on_rigid_bearings())
     loads = np.concatenate(
         [samples[name].transpose("axis", "sample").values for name in ("hub_force", "hub_moment")]
     )

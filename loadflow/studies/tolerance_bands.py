@@ -9,7 +9,6 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import SolverError
 from loadflow.rolling.friction import torques_beside
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
@@ -17,12 +16,10 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
-from loadflow.scene.scene import Scene
-from loadflow.scene.thrust import AnyAxial
+from loadflow.scene.thrust import AnyAxial, Thrust
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
-from loadflow.stages.thrust import solved
 from loadflow.studies.band_films import (
     HEAVIER,
     Deciding,
@@ -31,6 +28,7 @@ from loadflow.studies.band_films import (
     films_at,
     load_margins,
 )
+from loadflow.studies.compare_factor import grown
 from loadflow.studies.compare_friction import TORQUES
 from loadflow.studies.compare_margins import load_by_row, lubrication
 from loadflow.studies.compare_numbers import Finished
@@ -39,21 +37,22 @@ from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of
+from loadflow.studies.load_spectrum import SLOWEST
+from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
 from loadflow.studies.wear_bands import rubbing_of
 
 CLASSES = 3
 """Classes of speed, and twice as many of load, that stand for the series, beside the hardest."""
 
 PADS = 12
-"""Samples, the hardest first, in which films of pads are solved again."""
+"""Samples in which films of pads without tables are solved again, beside the hardest."""
 
+_FROM_ZERO = ("mixed_time",)  # has the unit of the number
 _SLOW = 0.1  # share of the samples that counts as low speed
 _SAME = 1e-9  # shares of a value below which a tolerance does not move it
 
 
-def with_bands(
-    one: Judged, run: Finished, scene: Scene, spectrum: xr.DataTree, given: AsBuilt
-) -> Judged:
+def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt) -> Judged:
     """A candidate with the band by tolerances of each of its numbers that they move.
 
     Each tolerance is taken to both of its ends, one at a time, under few loads of the lifetime and
@@ -67,8 +66,6 @@ def with_bands(
         The candidate.
     run : Finished
         Its run.
-    scene : Scene
-        Of the run, with the effects that were decided on.
     spectrum : xarray.DataTree
         Of `loadflow.studies.load_spectrum.load_spectrum`, with its places.
     given : AsBuilt
@@ -79,8 +76,8 @@ def with_bands(
     Judged
         Its `change` names tolerances that break a limit by themselves.
     """
-    rubs = rubbing_of(scene, run.folder, one.numbers["wear"])
-    built = Built(_bearings(run, scene), scene.friction, spectrum, rubs)
+    rubs = rubbing_of(run.scene, run.folder, one.numbers["wear"])
+    built = Built(_bearings(run), run.scene.friction, spectrum, rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -101,9 +98,9 @@ def with_bands(
     return replace(one, numbers=numbers, change=change)
 
 
-def _bearings(run: Finished, scene: Scene) -> Candidate:
+def _bearings(run: Finished) -> Candidate:
     """What stands in the scene, of the rooms that have results."""
-    there = {room: getattr(scene, room) for room in ("journal", "thrust", "rolling")}
+    there = {room: getattr(run.scene, room) for room in ("journal", "thrust", "rolling")}
     return Candidate(**{room: own for room, own in there.items() if room in run.tables})
 
 
@@ -159,6 +156,8 @@ def _moved(one: Judged, tolerance: Tolerance, known: Known) -> dict[str, tuple[f
             before, after = (values.get(key, math.nan) for values in (stated, there))
             if not (math.isfinite(before) and math.isfinite(after) and math.isfinite(number.value)):
                 continue
+            if before == 0 and key not in _FROM_ZERO:  # no share of nothing
+                continue
             step = after - before
             step *= number.value / before if before else 1.0
             if abs(step) > _SAME * abs(number.value):
@@ -185,7 +184,7 @@ def cheap_numbers(built: Built, deciding: Mapping[str, Deciding] | None = None) 
         found |= judge_design(alone, built.friction, spectrum).numbers
         found |= _of_rolling(candidate.rolling.bearings, built.friction, spectrum)
     if candidate.thrust is not None:
-        found |= _of_pads(candidate.thrust.bearings, spectrum, found)
+        found |= _of_pads(candidate.thrust, spectrum, found, built.spans or {})
     if candidate.journal is not None and (rubs := built.rubbing) is not None:
         found["wear"] = rubs.energy(candidate.journal.at(rubs.place))
     return found
@@ -273,33 +272,29 @@ def _of_rolling(
 
 
 def _of_pads(
-    bearings: Mapping[str, AnyAxial], spectrum: xr.DataTree, beside: Mapping[str, float]
+    thrust: Thrust,
+    spectrum: xr.DataTree,
+    beside: Mapping[str, float],
+    spans: Mapping[str, tuple[float, float] | None],
 ) -> dict[str, float]:
-    """Films of pads; what they lose is added to that of the journal bearings beside them."""
+    """Films of pads at rest, each as warm as it makes itself, and tilted where the shaft is.
+
+    What they lose is added to that of the journal bearings beside them.
+    """
     films, pressures, rough, used, margins, power = [], [], [], [], [], 0.0
-    for place, bearing in bearings.items():
-        samples = spectrum[place].to_dataset()
-        force, moment = (
-            to_rolling(samples[name].transpose("sample", "axis").values)
-            for name in ("force", "moment")
+    for place, bearing in thrust.bearings.items():
+        samples = _samples_of_pads(thrust, bearing, spectrum[place].to_dataset())
+        span = spans.get(place)
+        answer = pad_films(bearing, samples, span=span)
+        weight = samples["weight"].values * np.isfinite(answer.friction_power)
+        power += float(spectrum[place]["weight"].sum()) * (
+            _mean(answer.friction_power, weight) / max(weight.sum(), 1e-300)
         )
-        turning = np.flatnonzero(samples["weight"].values > 0)
-        pressed = bearing.normal_load(force, moment) / np.maximum(
-            np.abs(samples["speed"].values), 1e-12
-        )
-        order = turning[np.argsort(pressed[turning])]
-        some = samples.isel(sample=order[np.linspace(0, order.size - 1, PADS).astype(int)])
-        answer = solved(bearing, place, some)
-        weight = some["weight"].values * np.isfinite(answer["friction_power"].values)
-        power += float(samples["weight"].sum()) * (
-            _mean(answer["friction_power"].values, weight) / max(weight.sum(), 1e-300)
-        )
-        film = np.nan_to_num(answer["minimum_film"].values)
-        films.append(float(film.min()))
+        films.append(answer.thinnest())
         rough.append(films[-1] / bearing.contact_film)
         used.append(1.0 - films[-1] / bearing.clearance)
-        pressures.append(float(np.nanmax(answer["maximum_pressure"].values)))
-        margins += _margins_of_pads(bearing, place, some, answer)
+        pressures.append(answer.highest())
+        margins += _margins_of_pads(bearing, samples, answer, span)
     margin = min(margins, default=math.nan)
     if beside:
         lost = {name: beside[name] + power for name in ("friction", "energy")}
@@ -317,26 +312,43 @@ def _of_pads(
     }
 
 
+def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> xr.Dataset:
+    """Those of a spectrum in which a bearing of pads turns, tilted as the shaft is in them.
+
+    Of one without tables they are few: spread over the loads that last, and the hardest.
+    """
+    speed = np.abs(samples["speed"].values)
+    running = samples["running"].values.astype(bool)
+    turning = np.flatnonzero(running & (speed > SLOWEST * speed.max(initial=0.0)))
+    if not tabulated(bearing):
+        force, moment = (
+            to_rolling(samples[name].transpose("sample", "axis").values)
+            for name in ("force", "moment")
+        )
+        pressed = bearing.normal_load(force, moment)[turning] / speed[turning]
+        lasting = samples["weight"].values[turning] > 0
+        order = turning[lasting][np.argsort(pressed[lasting])]
+        spread = order[np.linspace(0, order.size - 1, PADS).astype(int)]
+        turning = np.unique([*spread, turning[np.argmax(pressed)]])
+    tilt = samples.get("pad_tilt", samples.get("tilt") if thrust.tilt else None)
+    some = samples.drop_vars(("tilt", "pad_tilt"), errors="ignore")
+    if tilt is not None and bearing.kind == "thrust":
+        some = some.assign(tilt=tilt)
+    return some.isel(sample=turning)
+
+
 def _margins_of_pads(
-    bearing: AnyAxial, place: str, some: xr.Dataset, answer: xr.Dataset
+    bearing: AnyAxial, some: xr.Dataset, answer: PadFilms, span: tuple[float, float] | None
 ) -> list[float]:
-    """Factors on the load to the limits of film and pressure; none where surfaces touch."""
-    if (answer["in_contact"] > 0).any():
-        return []
-    film, pressure = (answer[name].values for name in ("minimum_film", "maximum_pressure"))
+    """Factors on the load to the limits of film and pressure; 0 where a film is missing."""
+    if not answer.carried.all():
+        return [0.0]
+    film, pressure = answer.minimum_film, answer.maximum_pressure
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
-    hardest = some.isel(sample=[thin, hard])
-    loads = {name: HEAVIER * hardest[name] for name in ("force", "moment")}
-    try:
-        heavier = solved(bearing, place, hardest.assign(loads))
-    except SolverError:  # no film carries as much
-        return []
+    heavier = pad_films(bearing, grown(some.isel(sample=[thin, hard]), HEAVIER), span=span)
     limits = bearing.limits
     allowed = limits.pressure_at(limits.material[0][0])
     return load_margins(
         (film[thin] / bearing.least_film, allowed / pressure[hard]),
-        (
-            heavier["minimum_film"].values[0] / film[thin],
-            heavier["maximum_pressure"].values[1] / pressure[hard],
-        ),
+        (heavier.minimum_film[0] / film[thin], heavier.maximum_pressure[1] / pressure[hard]),
     )

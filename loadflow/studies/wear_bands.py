@@ -1,4 +1,4 @@
-"""What the hardest start rubs off a bore with other data: for the band by tolerances of wear."""
+"""What the hardest start rubs off a bore with other data: for band and error of wear."""
 
 from __future__ import annotations
 
@@ -17,7 +17,12 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.wear import touching_cycle
+from loadflow.studies.compare_numbers import Finished, error_of
 from loadflow.studies.compare_result import Number
+
+BATCHES = 5.0
+"""Factor by which published coefficients of wear of one pair of materials differ from batch to
+batch, at most of 2 … 5 (docs/mixed-friction.md)."""
 
 _FILM = ("time", "speed", "contact_share", "temperature")
 _SHAFT = ("force", "tilt", "curvature")
@@ -85,3 +90,27 @@ def rubbing_of(scene: Scene, folder: Path, wear: Number) -> Rubbing | None:
     if options.heat is not None and "temperature" in film:
         warmth = float(film["temperature"].median()) - options.heat.inlet_temperature
     return Rubbing(wear.place, cycle, warmth)
+
+
+def with_error(run: Finished, wear: Number) -> Number:
+    """Wear with its error by models: that of its coefficient, and of the films that it begins in.
+
+    The load case that wears most is followed again with surfaces rougher by the error of the
+    smallest film, which is what thinner films are to asperities. Where that film may be off by 100
+    % or has no error, or the case no answer, that of the coefficient stands alone, which is said.
+    """
+    if not wear.value > 0:
+        return wear
+    film, rubs = error_of(run, "journal.film", "minimum film"), None
+    if film < 1:
+        rubs = rubbing_of(run.scene, run.folder, wear)
+    more = math.nan
+    if rubs is not None:
+        options = run.scene.journal.at(rubs.place)
+        contact = options.contact and options.contact.as_rough(1.0 + film)
+        rougher = options.model_copy(update={"contact": contact})
+        more = max(rubs.energy(rougher) / rubs.energy(options), 1.0)
+    told = f"× {more:.3g} by the error of the films" if more >= 1 else "error of films not counted"
+    said = f"coefficients differ by up to {BATCHES:g} from batch to batch, {told}"
+    error = BATCHES * (more if more >= 1 else 1.0) - 1.0
+    return replace(wear, error=error, note="; ".join(filter(None, (wear.note, said))))

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,13 +13,14 @@ from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
+from loadflow.studies import wear_bands
 from loadflow.studies.band_films import deciding_of, films_of
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import Number
-from loadflow.studies.design_point import fast_journal
 from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.tolerance_bands import Known, _as_share, _banded, cheap_numbers
-from loadflow.studies.wear_bands import Rubbing
+from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
 MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
@@ -204,6 +206,25 @@ def test_a_start_rubs_more_under_a_shaft_that_lies_askew():
     found = only(starting(), alignment=2e-4)
     stated = cheap_numbers(found.stated)["wear"]
     assert all(cheap_numbers(end)["wear"] > stated for end in found.ends)
+
+
+def test_wear_has_the_error_of_its_coefficient_and_of_the_films_that_it_begins_in(monkeypatch):
+    """Thinner films rub more: as rougher surfaces do in the start that wears most."""
+    stated = starting()
+    scene = SimpleNamespace(journal=stated.candidate.journal)
+    worn = Number(2.0, "µm", place="N", case="start")
+    monkeypatch.setattr(wear_bands, "rubbing_of", lambda *about: stated.rubbing)
+
+    def told(**errors):
+        manifest = {"expected_errors": {"journal.film": errors}}
+        return with_error(SimpleNamespace(scene=scene, folder=None, manifest=manifest), worn)
+
+    alone = told()
+    assert alone.error == BATCHES - 1
+    assert "error of films not counted" in alone.note
+    some, more = (told(**{"minimum film": error}).error for error in (0.1, 0.3))
+    assert BATCHES - 1 < some < more
+    assert with_error(None, replace(worn, value=0.0)).value == 0
 
 
 def test_a_band_ends_where_a_quantity_cannot_go_on():

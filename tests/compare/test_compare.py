@@ -36,6 +36,7 @@ from loadflow.running.comparison import (
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
+from loadflow.stages.turning import SLOWEST
 from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
@@ -50,7 +51,7 @@ from loadflow.studies.compare_result import (
     missing,
     plain,
 )
-from loadflow.studies.compare_risks import events, wear
+from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_words import conclusion
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -159,16 +160,15 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
             assert known & {*number["missing"]} == set()
             assert all(number["missing"].values())
     spherical = by_name(found)["two-spherical"].numbers
-    for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter",
-                "minimum_load", "row_share", "row_overload", "tilt"):  # fmt: skip
+    for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter", "tilt",
+                "minimum_load", "row_share", "row_overload", "viscosity_ratio"):  # fmt: skip
         assert 0 <= spherical[key].error < 0.5, key
     for key in ("friction_torque", "palmgren_torque", "skf_torque"):
         assert spherical[key].tolerance_low < spherical[key].value < spherical[key].tolerance_high
     journal = by_name(found)["journal-cylindrical"].numbers
     assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
     page = found.page.read_text(encoding="utf-8")
-    assert re.search(r'<small title="[^"]+">– by (seeds|models|tolerances)</small>', page)
-    assert "by tolerances: " in page
+    assert re.search(r"<small>– by (seeds|models|tolerances): [^<]+</small>", page)
 
 
 def test_rolling_bearings_are_asked_for_as_much_accuracy_as_where_nothing_is_said(cube):
@@ -190,7 +190,7 @@ def test_what_no_ladder_knows_says_so_and_what_is_0_has_no_share():
     plain_zero = Number(0.0, "h", low=0.0, high=0.0)
     assert missing("mixed_time", plain_zero)["tolerances"].startswith("it is 0")
     assert missing("mixed_time", plain_zero)["models"].startswith("it is 0")
-    assert "by 2 to 5" in missing("wear", replace(plain_zero, value=2.0))["models"]
+    assert "slowest speed" in missing("viscosity_ratio", replace(plain_zero, value=2.0))["models"]
     whole = Number(100.0, "%", low=100.0, high=100.0, error=0.01)
     assert missing("row_share", whole) == {"tolerances": "it is whole"}
     assert {*missing("friction", Number(1.0))} == {"seeds", "models", "tolerances"}
@@ -355,6 +355,25 @@ def test_rows_of_wear_and_standing_say_which_starts_they_rest_on():
     assert events(scene, table.isel(case=[0])) == "no start, stop or fault in this run"
 
 
+def test_time_standing_has_the_error_of_what_counts_as_standing(tmp_path):
+    """Ten samples stand; two more would if ten times as fast a shaft did."""
+    speed = np.r_[np.zeros(10), np.full(2, 5 * SLOWEST), np.ones(88)]
+    (tmp_path / "loads").mkdir()
+    series = xr.Dataset({"speed": ("time", speed)}, {"time": np.arange(100.0)})
+    series.to_netcdf(tmp_path / "loads" / "a.h5", engine="h5netcdf")
+    coords = {"dlc": ("case", ["3.1"]), "wind_speed": ("case", [8.0]), "seed": ("case", [1])}
+    table = xr.Dataset(coords={"case": ["a"], **coords})
+    ratio = xr.DataArray([[math.nan]], dims=("case", "bearing"))
+    found = dict(
+        rolling_risks(
+            make_scene({"name": "s"}), tmp_path, table.assign(bearing_viscosity_ratio=ratio),
+            np.ones(1),
+        )
+    )["standstill"]  # fmt: skip
+    assert (found.value, found.error) == (pytest.approx(10.0), pytest.approx(0.2))
+    assert "ten times" in found.note
+
+
 def test_candidates_that_can_wear_are_asked_for_it_where_the_scene_has_a_law():
     rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
     geometry = {"diameter": 1.0, "width": 1.0, "relative_clearance": 1e-3}
@@ -499,6 +518,10 @@ def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline
     )
     assert "Reservations" not in conclusion([rolls, collar])
     assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
+    told = conclusion([rolls, bare], {"pads": "no equilibrium"})
+    assert "Without an answer, and not counted: pads." in told
+    gone = replace(rolls, unanswered={"rolling of one": "no equilibrium"})
+    assert "which have parts without an answer." in conclusion([gone])
 
 
 def test_bearings_of_the_scene_are_none_of_a_candidate_that_has_others():

@@ -20,9 +20,10 @@ from loadflow.running.designing import chosen_candidate, design
 from loadflow.scene.design import Design
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
-from loadflow.studies.design_point import DesignPoint, fast_journal, judge_design
+from loadflow.studies.design_point import DesignPoint, judge_design
 from loadflow.studies.design_result import best_of, front_of
 from loadflow.studies.design_space import space_of, start_of
+from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.load_spectrum import load_spectrum
 
 FILM = {

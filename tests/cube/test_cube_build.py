@@ -30,6 +30,13 @@ def case(wind_speed=12.0, seed=1, dlc="1.1", n=200, dt=0.025, **varied):
     return make_case(time, data, dlc=dlc, wind_speed=wind_speed, seed=seed, **varied)
 
 
+def test_a_vector_that_lies_the_other_way_round_is_told_its_shape():
+    with pytest.raises(InputError, match=r"hub_force: must have the shape \(3, 5\), got \(5, 3\)"):
+        make_case(
+            np.arange(5.0), {"hub_force": np.zeros((5, 3))}, dlc="1.1", wind_speed=8.0, seed=1
+        )
+
+
 def test_equal_cases_become_one_dataset_of_the_schema():
     cube = make_cube([case(4, 1), case(4, 2), case(6, 1)])
     assert isinstance(cube, xr.Dataset)

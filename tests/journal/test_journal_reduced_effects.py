@@ -440,8 +440,8 @@ def test_a_path_in_stretches_is_the_path_in_one(effect, monkeypatch):
     heat = Heat(**OIL, capacity=3e3, start_temperature=313.15)
     film = replace(REDUCED, lubricant=None, heat=heat, **film)
     whole = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
-    monkeypatch.setattr(composed_path, "_STRETCH", 4)
-    monkeypatch.setattr(composed_path, "_LONG", 7)
+    monkeypatch.setattr(composed_path, "STRETCH", 4)
+    monkeypatch.setattr(composed_path, "LONG", 7)
     parts = BEARING.orbit(TIME, load, SPEED, film, tolerance=1e-11, **line)
     for name in (*ANSWERS, "temperature"):
         np.testing.assert_array_equal(parts[name], whole[name], name)

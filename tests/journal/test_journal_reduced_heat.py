@@ -10,6 +10,7 @@ from loadflow.journal import (
     Arc,
     Contact,
     Control,
+    Crown,
     Film,
     FilmHeat,
     GasMixture,
@@ -18,6 +19,7 @@ from loadflow.journal import (
     Lobes,
     LocalShell,
     Lubricant,
+    MassConserving,
     RingGrowth,
     Supply,
     TiltingPads,
@@ -76,6 +78,20 @@ def test_a_film_at_rest_is_that_of_the_grid(more, line):
     assert own.film_temperature.shape == (own.angle.size, own.z.size) == grid.film_temperature.shape
     off = np.linalg.norm(own.moment - grid.moment)
     assert off <= 1e-3 * np.linalg.norm(LOAD) * BEARING.width
+
+
+@pytest.mark.parametrize(
+    ("relief", "law"),
+    [((Crown(1e-5, 0.02),), GasMixture(5e4)), ((), MassConserving(5e4))],
+)
+def test_growth_with_a_crown_or_any_law_is_that_of_the_grid(relief, law):
+    bearing = replace(BEARING, relief=relief)
+    own, grid = (
+        bearing.equilibrium(LOAD, SPEED, replace(film(rung, FINE, GROWS), cavitation=law))
+        for rung in ("reduced", "grid")
+    )
+    for name, most in zip(TOLD, (0.006, 0.01, 0.0015)):
+        assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
 
 
 @pytest.mark.parametrize(

@@ -20,6 +20,7 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.gap_mesh import shaped_mesh
 from loadflow.journal.film.ring_growth import RingExpansion, ring_factor, ring_motion, wall
+from loadflow.journal.film.warm_cylinder import bore_growth
 from loadflow.scene.journal import make_journal
 from loadflow.tribology import ExponentialOil
 
@@ -69,18 +70,18 @@ def test_a_thin_ring_that_is_held_grows_inward_by_its_thickness(n):
         assert factor == pytest.approx(-(1 + nu) * thin, rel=3e-3)
 
 
-def expansion(cells, **changes):
-    mesh = shaped_mesh(0.5, (cells, 4), True, False, (), (), ())
+def expansion(cells, half_width=0.5, **changes):
+    mesh = shaped_mesh(half_width, (cells, 4), True, False, (), (), ())
     heat = FilmHeat("iso-vg-68", growth=replace(RING, **changes))
     return mesh, RingExpansion(heat, mesh, 0.1)
 
 
 @pytest.mark.parametrize("held", [False, True])
 def test_the_growth_around_is_that_of_each_order(held):
-    """A temperature of orders 0, 1 and 3; second order in the cells."""
+    """A temperature of orders 0, 1 and 3; second order in the cells; slices of a narrow ring."""
     off = []
     for cells in (48, 96, 192):
-        mesh, grows = expansion(cells, held=held, shaft_expansion=5e-6)
+        mesh, grows = expansion(cells, 0.005, held=held, shaft_expansion=5e-6)
         phi = mesh.angle[:, None] + np.zeros(mesh.shape)
         shell = 320.0 + 8.0 * np.cos(phi - 0.4) + 5.0 * np.cos(3 * phi)
         f0, f1, f3 = (ring_factor(n, 1.5, 0.0, held, 0.3) for n in (0, 1, 3))
@@ -89,6 +90,59 @@ def test_the_growth_around_is_that_of_each_order(held):
         off.append(np.abs(grows.of(shell, 310.0) - exact).max())
     assert off[-1] < 3e-3 * 0.1 * 11.7e-6 * 5.0 * (abs(f3) + abs(f1) + 0.1)
     assert np.log2(np.array(off[:-1]) / off[1:]) == pytest.approx(2.0, abs=0.2)
+
+
+@pytest.mark.parametrize("held", [False, True])
+def test_a_narrow_ring_moves_as_its_slices(held):
+    orders, across = (0, 2, 3, 8), np.linspace(-0.005, 0.005, 5)
+    grown = bore_growth(orders, across, 1.5, 0.5, held, 0.3).sum(axis=-1)
+    exact = [ring_factor(n, 1.5, 0.5, held, 0.3) for n in orders]
+    np.testing.assert_allclose(grown, np.outer(exact, np.ones(4)), rtol=1e-3)
+
+
+def test_a_thin_ring_that_is_warmer_toward_one_end_opens_as_a_cone():
+    """A temperature that rises straight makes no stress: the bore grows by α a T(z)."""
+    edges = np.linspace(-0.5, 0.5, 21)
+    middles = 0.5 * (edges[1:] + edges[:-1])
+    grown = bore_growth((0,), edges, 1.01, 0.0, False, 0.3)[0] @ middles
+    np.testing.assert_allclose(grown[4:-4], middles[4:-4], atol=2e-3)
+
+
+def test_a_hot_spot_moves_the_bore_beside_it_too():
+    """Over about the thickness of the wall, whatever the cells; a slice would move alone."""
+    found = []
+    for cells in (12, 24, 48):
+        edges = np.linspace(-0.75, 0.75, cells + 1)
+        middles = 0.5 * (edges[1:] + edges[:-1])
+        warm = np.exp(-((middles / 0.2) ** 2))
+        grown = bore_growth((0,), edges, 1.5, 0.0, False, 0.3)[0] @ warm
+        found.append(np.interp([0.0, 0.3, 0.7], middles, grown))
+    np.testing.assert_allclose(found[1], found[2], atol=0.01)
+    assert found[2][0] < 0.5
+    assert found[2][1] > 0.25
+
+
+def test_half_of_a_ring_is_the_whole_one():
+    half = np.linspace(0.0, 0.75, 7)
+    whole = np.append(-half[:0:-1], half)
+    one, both = (bore_growth((0, 2), edges, 1.4, 0.3, False, 0.3) for edges in (half, whole))
+    np.testing.assert_allclose(one, both[:, 6:, 6:] + both[:, 6:, 5::-1], atol=1e-10)
+
+
+def test_the_narrowest_film_hardly_asks_for_cells_across():
+    """Cold oil at the ends lies in ever narrower a strip, but the ring bends all over."""
+    round_bore = JournalBearing(**SIZE)
+    films = [film((72, cells), growth=RING, shell_transfer=500.0) for cells in (24, 48)]
+    least = [float(round_bore.equilibrium((4e4, 3e3), 100.0, one).minimum_film) for one in films]
+    assert least[0] == pytest.approx(least[1], rel=0.03)
+
+
+def test_a_bore_turned_by_half_a_turn_has_the_same_film():
+    """Wherever its cells begin: in the one or the other groove."""
+    options = film((72, 8), growth=RING)
+    one, other = (LOBES.equilibrium(s * np.array(LOAD), SPEED, options) for s in (1.0, -1.0))
+    for name in ("minimum_film", "maximum_pressure", "friction_power", "clearance"):
+        assert getattr(one, name) == pytest.approx(float(getattr(other, name)), rel=3e-3)
 
 
 def test_an_even_growth_is_another_clearance():

@@ -18,7 +18,7 @@ from scipy.sparse import csr_array, diags_array, kron, tril
 
 Array = NDArray[np.float64]
 
-_ACROSS, _ALONG = 3, 2  # degrees of the elements through the wall and along it
+ACROSS, _ALONG = 3, 2  # degrees of the elements through the wall and along it
 _COARSER = 2.0  # ratio of the lengths of neighbouring elements through the wall
 
 
@@ -63,9 +63,9 @@ def _cached(
     poisson_ratio: float,
 ) -> Array:
     rings = np.array(z_edges)
-    walls = _wall(inner, outer, float(np.diff(rings).min()))
+    walls = wall_edges(inner, outer, float(np.diff(rings).min()))
     parts, along = _stiffness(walls, rings, modulus, poisson_ratio)
-    nodes = _ACROSS * (walls.size - 1)  # through the wall, without the outside
+    nodes = ACROSS * (walls.size - 1)  # through the wall, without the outside
     at_nodes = np.zeros((*along.shape, nodes, 3))
     at_nodes[:, :, 0, 0] = along  # radially, on the bore
     pushed = at_nodes.reshape(along.shape[0], -1)
@@ -77,7 +77,7 @@ def _cached(
     return np.array(found)
 
 
-def _wall(inner: float, outer: float, first: float) -> Array:
+def wall_edges(inner: float, outer: float, first: float) -> Array:
     """Edges of the elements through the wall, which lengthen from the bore on."""
     count = 1
     while first * (_COARSER**count - 1) / (_COARSER - 1) < outer - inner:
@@ -86,19 +86,45 @@ def _wall(inner: float, outer: float, first: float) -> Array:
     return inner + (outer - inner) * np.append(0.0, np.cumsum(shares)) / shares.sum()
 
 
-_U, _V, _W = range(3)
-_VALUE, _SLOPE, _OVER_R = range(3)
+U, V, W = range(3)
+VALUE, SLOPE, OVER_R = range(3)
 
 _STRAINS = (
-    ((_U, _SLOPE, _VALUE, 0, 1.0),),
-    ((_U, _OVER_R, _VALUE, 0, 1.0), (_V, _OVER_R, _VALUE, 1, 1.0)),
-    ((_W, _VALUE, _SLOPE, 0, 1.0),),
-    ((_V, _SLOPE, _VALUE, 0, 1.0), (_V, _OVER_R, _VALUE, 0, -1.0), (_U, _OVER_R, _VALUE, 1, -1.0)),
-    ((_U, _VALUE, _SLOPE, 0, 1.0), (_W, _SLOPE, _VALUE, 0, 1.0)),
-    ((_V, _VALUE, _SLOPE, 0, 1.0), (_W, _OVER_R, _VALUE, 1, -1.0)),
+    ((U, SLOPE, VALUE, 0, 1.0),),
+    ((U, OVER_R, VALUE, 0, 1.0), (V, OVER_R, VALUE, 1, 1.0)),
+    ((W, VALUE, SLOPE, 0, 1.0),),
+    ((V, SLOPE, VALUE, 0, 1.0), (V, OVER_R, VALUE, 0, -1.0), (U, OVER_R, VALUE, 1, -1.0)),
+    ((U, VALUE, SLOPE, 0, 1.0), (W, SLOPE, VALUE, 0, 1.0)),
+    ((V, VALUE, SLOPE, 0, 1.0), (W, OVER_R, VALUE, 1, -1.0)),
 )
 """Strains rr, θθ, zz (cos nθ), rθ (sin), rz (cos), θz (sin): sums of a displacement, what is taken
 of it through the wall and along, the power of n, and a factor."""
+
+
+def lame_constants(modulus: float, poisson_ratio: float) -> tuple[float, float]:
+    """λ and μ of a solid, Pa."""
+    shear = 0.5 * modulus / (1.0 + poisson_ratio)
+    return 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio), shear
+
+
+def stiffness_parts(
+    across: Array, length: Array, modulus: float, poisson_ratio: float
+) -> list[Any]:
+    """Parts K₀, K₁, K₂ of the stiffness K₀ + n K₁ + n² K₂ over π, sparse, of no node held.
+
+    `across` and `length` are `products` through the wall and along; unknowns run over the
+    displacements, then through the wall, then along.
+    """
+    lame, shear = lame_constants(modulus, poisson_ratio)
+    law = np.diag([2 * shear] * 3 + [shear] * 3)
+    law[:3, :3] += lame
+    size = 3 * length.shape[-1] * across.shape[-1]
+    parts: list[Any] = [csr_array((size, size)) for _ in range(3)]
+    for s, t in zip(*np.nonzero(law)):
+        for (a, r, z, m, left), (b, p, q, n, right) in product(_STRAINS[s], _STRAINS[t]):
+            pair = csr_array(([law[s, t] * left * right], ([a], [b])), shape=(3, 3))
+            parts[m + n] = parts[m + n] + kron(length[z, q], kron(across[r, p], pair))
+    return parts
 
 
 def _stiffness(
@@ -112,33 +138,28 @@ def _stiffness(
     """
     from skfem import ElementLineP2, ElementLinePp
 
-    shear = 0.5 * modulus / (1.0 + poisson_ratio)
-    lame = 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
-    law = np.diag([2 * shear] * 3 + [shear] * 3)
-    law[:3, :3] += lame
-    through, along = _line(walls, ElementLinePp(_ACROSS)), _line(rings, ElementLineP2())
-    across = _products(through, radial=True)[:, :, :-1, :-1]  # the outside is held
-    length = _products(along, radial=False)
-    size = 3 * length.shape[-1] * across.shape[-1]
-    parts: list[Any] = [csr_array((size, size)) for _ in range(3)]
-    for s, t in zip(*np.nonzero(law)):
-        for (a, r, z, m, left), (b, p, q, n, right) in product(_STRAINS[s], _STRAINS[t]):
-            pair = csr_array(([law[s, t] * left * right], ([a], [b])), shape=(3, 3))
-            parts[m + n] = parts[m + n] + kron(length[z, q], kron(across[r, p], pair))
+    through, along = (
+        line_functions(walls, ElementLinePp(ACROSS)),
+        line_functions(rings, ElementLineP2()),
+    )
+    across = products(through, radial=True)[:, :, :-1, :-1]  # the outside is held
+    length = products(along, radial=False)
+    parts = stiffness_parts(across, length, modulus, poisson_ratio)
     free = np.ones((length.shape[-1], across.shape[-1], 3))
     if rings[0] == 0.0:
-        free[0, :, _W] = 0.0  # the plane of symmetry
+        free[0, :, W] = 0.0  # the plane of symmetry
     mask = diags_array(free.ravel())
     kept = [mask @ part @ mask for part in parts]
     kept[0] = kept[0] + diags_array(1.0 - free.ravel())
+    size = 3 * length.shape[-1] * across.shape[-1]
     bands = np.zeros((3, 3 * across.shape[-1] * (_ALONG + 1), size))
     for band, part in zip(bands, kept):
         lower = tril(part).tocoo()
         band[lower.row - lower.col, lower.col] = lower.data
-    return bands, _loads(along)
+    return bands, ring_loads(along)
 
 
-def _line(edges: Array, element: Any) -> Any:
+def line_functions(edges: Array, element: Any) -> Any:
     """Functions on the elements between edges, integrated exactly but for what is over r."""
     from skfem import Basis, MeshLine
 
@@ -152,7 +173,7 @@ def _order(basis: Any) -> NDArray[np.int64]:
     return np.concatenate([np.append(corner, own) for corner, own in zip(corners, inside)])
 
 
-def _products(basis: Any, radial: bool) -> Array:
+def products(basis: Any, radial: bool) -> Array:
     """Integrals of the products of value, slope and value over r, (3, 3, node, node).
 
     Through the wall over r dr; along it, where nothing is divided by r, the last are 0.
@@ -175,7 +196,7 @@ def _products(basis: Any, radial: bool) -> Array:
     return found
 
 
-def _loads(basis: Any) -> Array:
+def ring_loads(basis: Any) -> Array:
     """Integral of each function over each element, (element, node)."""
     elements = np.arange(basis.nelems)
     found = np.zeros((basis.nelems, basis.N))

@@ -84,12 +84,6 @@ class EnergyEquation(Temperatures):
         """Growth of the gap of the cells by heat, (nx, nz), m."""
         return self.gap.expansion * (self.film.relative_clearance * self.film.radius)
 
-    @property
-    def mean_growth(self) -> float:
-        """The same on average over the cells, m."""
-        mesh = self.film.mesh
-        return float(np.average(self.growth, weights=np.outer(mesh.dx, mesh.dz)))
-
     def alone(self, film: Solved, guess: Array) -> Warmth:
         """Temperatures of one film at the speed that is set, as `solve_mean`."""
         return self.solve_mean([(film.u, film.position, self.film.speed)], guess)

@@ -1,6 +1,10 @@
 """Growth of a gap by the temperatures of its surfaces: a ring around a shaft, order by order.
 
-A ring of radii a and b has the temperature cos nφ at its bore and gives off heat outside. In its
+The lowest orders, which move the bore most, are those of a ring as wide as the bearing, by finite
+elements (`warm_cylinder`): what is warm at one place along the axis moves the bore over about the
+thickness of the wall. Of the others, which reach no farther than a wave, each slice is by itself.
+
+A slice of radii a and b has the temperature cos nφ at its bore and gives off heat outside. In its
 wall the temperature is harmonic, A r^n + B r^−n. The displacement is that of plane stress: the
 gradient of a potential Φ, ∇²Φ = (1 + ν) α T, and of each order what makes the bore free of traction
 and the outside free or fixed, from the functions of Muskhelishvili,
@@ -17,6 +21,7 @@ from typing import NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.warm_cylinder import bore_growth
 from loadflow.journal.heat import FilmHeat, RingGrowth
 from loadflow.numerics.fields import require
 
@@ -24,6 +29,8 @@ Array = NDArray[np.float64]
 
 OPEN = math.pi / 4
 """Largest part of the ring, rad, along which there may be no film."""
+
+_TOGETHER = 8  # highest order of which the slices move each other
 
 RUNS_ROUND = "None but where a film runs round, which warms the ring"
 """Growth that is allowed elsewhere."""
@@ -156,7 +163,7 @@ def ring_motion(n: int, outer: float, biot: float, held: bool, nu: float) -> flo
 
 
 class CellsAround(Protocol):
-    """Cells of a film around: edges (nx + 1,), middles and widths (nx,), rad."""
+    """Cells of a film: edges (nx + 1,), middles and widths (nx,) around, rad; edges across."""
 
     @property
     def edges(self) -> Array:
@@ -170,6 +177,10 @@ class CellsAround(Protocol):
     def dx(self) -> Array:
         """Widths."""
 
+    @property
+    def z_edges(self) -> Array:
+        """Edges (nz + 1,) across, shaft radii; from 0 on one half of the width."""
+
 
 class RingExpansion:
     """Growth of the gap of the cells of a film by the temperatures of shell and shaft.
@@ -179,7 +190,8 @@ class RingExpansion:
     heat : FilmHeat
         With `growth`.
     mesh : CellsAround
-        Cells; where a bore ends in a groove, that is as warm as both of its sides on average.
+        Cells, whose edges across are those of the ring, too. Where a bore ends in a groove, it is
+        as warm there as the film that its oil flows into.
     radius : float
         m.
 
@@ -200,29 +212,44 @@ class RingExpansion:
         require(without < OPEN, "growth", growth, RUNS_ROUND)
         outer, biot = diameter / bore, _biot(heat, growth, radius)
         shape = growth.held, growth.poisson_ratio
-        self._even = ring_factor(0, outer, 0.0, *shape)
+        along = np.asarray(mesh.z_edges)
+        self._even = np.ones(along.size - 1)
+        if growth.held:
+            self._even = bore_growth((0,), along, outer, 0.0, *shape)[0].sum(axis=1)
         orders = np.arange(1, mesh.angle.size + 1)
-        factors = np.array([ring_factor(int(n), outer, biot, *shape) for n in orders])
-        share = mesh.dx.copy()
-        share[[0, -1]] += 0.5 * without
-        facing = orders[:, None] * mesh.angle
-        weights = factors[:, None] * 2.0 * np.sin(0.5 * orders[:, None] * mesh.dx)
-        weights /= np.pi * orders[:, None]
-        # where there is no film, as warm as both of its sides on average
-        gap = factors * 2.0 * np.sin(0.5 * orders * without) / (np.pi * orders)
-        middle = mesh.edges[0] - 0.5 * without
-        matrix = np.cos(facing).T @ (weights * np.cos(facing))
-        matrix += np.sin(facing).T @ (weights * np.sin(facing))
-        beside = np.cos(facing - orders[:, None] * middle).T @ gap
-        matrix[:, [0, -1]] += 0.5 * beside[:, None]
-        self._matrix = matrix + ring_factor(0, outer, biot, *shape) * share / (2 * np.pi)
+        own = orders > min(_TOGETHER, int(orders[-1]))
+        # behind the cells what lies between the last and the first: a groove, or nothing
+        angle = np.append(mesh.angle, mesh.edges[0] - 0.5 * without)
+        wide = np.append(mesh.dx, max(without, 0.0))
+        facing = orders[:, None] * angle
+        waves = np.stack([np.cos(facing), np.sin(facing)], axis=1)
+        weights = 2.0 * np.sin(0.5 * orders[:, None] * wide) / (np.pi * orders[:, None])
+        parts, waves = waves * weights[:, None], waves[:, :, :-1]
+        factors = np.array([ring_factor(int(n), outer, biot, *shape) for n in orders[own]])
+        self._slices = np.einsum("h,hwi,hwj->ij", factors, waves[own], parts[own])
+        together = ~own
+        if not growth.held:  # free, the first order only moves the bore
+            together[0] = False
+        told = (0, *orders[together].tolist())
+        self._moves = bore_growth(told, along, outer, biot, *shape)
+        mean = np.zeros((1, 2, wide.size))
+        mean[:, 0] = 1.0
+        self._waves = np.concatenate([mean[:, :, :-1], waves[together]])
+        self._parts = np.concatenate([mean * wide / (2 * np.pi), parts[together]])
 
-    def of(self, shell: Array, shaft: float) -> Array:
-        """Growth of the gap (nx, nz), m, of surfaces at `shell` (nx, nz) and `shaft`, K."""
+    def of(self, shell: Array, shaft: float, way: float = 1.0) -> Array:
+        """Growth of the gap (nx, nz), m, of surfaces at `shell` (nx, nz) and `shaft`, K.
+
+        The shaft turns one `way`, rad/s, in which oil flows on from the groove behind the cells.
+        """
         growth, heat = self.growth, self.heat
         cold = growth.reference_temperature
         back = heat.shell_temperature if heat.shell_transfer > 0.0 else cold
-        bore = self._even * (back - cold) + self._matrix @ (shell - back)
+        behind = shell[:1] if way > 0.0 else shell[-1:]
+        above = np.concatenate([shell, behind]) - back
+        bore = self._even * (back - cold) + self._slices @ above
+        parts = (self._parts @ above) @ self._moves.swapaxes(-1, -2)
+        bore += np.tensordot(self._waves, parts, axes=((0, 1), (0, 1)))
         turning = growth.shaft_expansion * (shaft - cold)
         return np.asarray(self.radius * (growth.shell_expansion * bore - turning))
 

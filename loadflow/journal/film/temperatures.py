@@ -129,8 +129,8 @@ class Temperatures(ABC):
 
     @property
     def mean_growth(self) -> float:
-        """The same on average over the cells, m."""
-        return 0.0
+        """The same on average over the cells beside grooves, m."""
+        return float(np.average(self.growth[self.wet], weights=self.volumes.area))
 
     @abstractmethod
     def thicken(self, state: Array) -> None:
@@ -221,7 +221,7 @@ class Temperatures(ABC):
             return every, None
         shell = temperature.copy()
         shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
-        return every, self._expansion.of(shell, self._shaft)
+        return every, self._expansion.of(shell, self._shaft, self.film.speed)
 
     def _flows(self, low: Numbers, high: Numbers, flow: Array, drag: Array) -> Flows:
         """Flows from volumes `low` to `high`, of either sign; those within one volume left out."""

@@ -55,10 +55,10 @@ from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 from loadflow.numerics.references import refer
 
-_KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
-_ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
-_MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
-_ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
+KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
+ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
+MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
+ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
 @once
@@ -68,7 +68,7 @@ def _limited(film, work, q, step):
     An aligned, eccentric shaft goes along the gap, not along the chord.
     """
     if film.ring.shaped:
-        share = share_of_step(film, work, step[0], step[1], step[2], step[3], _KEPT)
+        share = share_of_step(film, work, step[0], step[1], step[2], step[3], KEPT)
         for k in range(4):
             step[k] *= share
         return
@@ -88,6 +88,14 @@ def _limited(film, work, q, step):
         if inside:
             step[0], step[1] = dx, dy
             return
+    share = share_inside(film, work, step)
+    for k in range(4):
+        step[k] *= share
+
+
+@once
+def share_inside(film, work, step):
+    """Share of a `step` (4,) of which every place of a cylindrical bore keeps part of its gap."""
     share = 1.0
     for k in range(film.places.z.size):
         ex, ey, z = work.centre[0, k], work.centre[1, k], film.places.z[k]
@@ -98,15 +106,14 @@ def _limited(film, work, q, step):
             along = ex * dx + ey * dy
             room = max(limit * limit - ex * ex - ey * ey, 0.0)
             share = min(share, (np.sqrt(along * along + square * room) - along) / square)
-    for k in range(4):
-        step[k] *= share
+    return share
 
 
 @inner
 def _farthest(film, ratio, depth):
     """Eccentricity ratio up to which a step may lead from `ratio` in a bore `depth` wider."""
     gap, rough = 1.0 + depth - ratio, film.rough
-    return ratio + max(min((1.0 - _KEPT) * max(gap, rough.size), gap + rough.deepest), 0.0)
+    return ratio + max(min((1.0 - KEPT) * max(gap, rough.size), gap + rough.deepest), 0.0)
 
 
 @once
@@ -137,7 +144,7 @@ def _shaft_step(film, work, load, size, step):
 
 
 @inner
-def _correct(film, work, step, size, share):
+def correct(film, work, step, size, share):
     """Unknowns after a share of a Newton step from `work.trial`."""
     block = work.u.size
     for here in range(0, block, LANES):
@@ -156,20 +163,20 @@ def _advance(film, work, q, step, size):
     if film.give == 0.0:
         if size > 0:
             _limited(film, work, q, step)
-        _correct(film, work, step, size, 1.0)
+        correct(film, work, step, size, 1.0)
         for a in range(4):
             q[a] += step[a]
         place(film, work, q)
         return
     gap, share, done = narrowest(film, work), 1.0, 0.0
-    least = max(gap - (1.0 - _KEPT) * max(gap, film.rough.size), -film.rough.deepest)
+    least = max(gap - (1.0 - KEPT) * max(gap, film.rough.size), -film.rough.deepest)
     while True:
-        _correct(film, work, step, size, share)
+        correct(film, work, step, size, share)
         for a in range(4):
             q[a] += (share - done) * step[a]
         done = share
         place(film, work, q)
-        if narrowest(film, work) >= least or share < _ROOM:
+        if narrowest(film, work) >= least or share < ROOM:
             return
         share *= 0.5
 
@@ -222,7 +229,7 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         if done or answered:
             return residual, spent, answered, rounding
         spent, columns, fresh = spent + 1, 1, False
-        if not (work.kept[0] > 0.0 and residual * (residual / last) ** _MORE < tolerance):
+        if not (work.kept[0] > 0.0 and residual * (residual / last) ** MORE < tolerance):
             slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
             work.kept[0] = 0.0
@@ -375,7 +382,7 @@ def solve(
                         for a in range(size):
                             new[a] = q[a]
                 predict(work, ratio, ahead, thin * weight, thin * weight_before)
-                if not ahead or abs(thin * rate - work.kept[1]) > _ALIKE * work.kept[1]:
+                if not ahead or abs(thin * rate - work.kept[1]) > ALIKE * work.kept[1]:
                     work.kept[0] = 0.0
             omega = thin * (speed[last] + to * (speed[n] - speed[last]))
             residual, iterations, converged, rounding = _newton(

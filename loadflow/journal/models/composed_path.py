@@ -53,9 +53,9 @@ Array = NDArray[np.float64]
 STEP_BEFORE = 4  # of the `past` of a state: the step to its last time, s; 0 at the first one
 _BEGUN = (0.0, 0.0, np.inf)  # steps of the past of a first state
 _NO_SLOPES = np.zeros((2, 0, 0))
-_STRETCH = 24  # samples that take more points together
+STRETCH = 24  # samples that take more points together
 _TRIES = 3  # of a first film, each from where the last one left the shaft
-_LONG = 240  # samples that go on together with few; calls of fewer cost
+LONG = 240  # samples that go on together with few; calls of fewer cost
 
 
 class State(NamedTuple):
@@ -351,18 +351,18 @@ def orbit(
             break
     if state is None:
         raise march.not_begun()
-    done, level, samples = 1, state.level, _STRETCH
+    done, level, samples = 1, state.level, STRETCH
     while done < time.size:
         end = min(done + samples, time.size)
         after = march.goes_on(state, level, done, end)
         resolved = after is not None and march.resolved(level, done, end)
         if not resolved and level != march.levels[-1]:  # a stretch alone asks for more points
-            level, samples = level + (samples == _STRETCH), _STRETCH
+            level, samples = level + (samples == STRETCH), STRETCH
             continue
         if after is None:
             raise march.stops(done, end)
         if level == march.levels[0]:
-            samples = min(2 * samples, _LONG)
+            samples = min(2 * samples, LONG)
         elif not march.asks_for_more(done, end):
             level = march.levels[0]
         done, state = end, after

@@ -56,18 +56,19 @@ class Made(NamedTuple):
 
 
 class _Columns(NamedTuple):
-    """Columns of cells around, as `RingExpansion` asks for them."""
+    """Columns of cells around, and edges of the strips, as `RingExpansion` asks for them."""
 
     edges: Array
     angle: Array
     dx: Array
+    z_edges: Array
 
     @classmethod
-    def of(cls, ring: Ring) -> _Columns:
+    def of(cls, ring: Ring, z_edges: Array) -> _Columns:
         """Those of a film, and the grooves between its segments."""
         angle = np.unwrap(np.arctan2(ring.sin, ring.cos))
         edges = np.append(angle - 0.5 * ring.width, angle[-1] + 0.5 * ring.width[-1])
-        return cls(edges, angle, ring.width)
+        return cls(edges, angle, ring.width, z_edges)
 
 
 class StripFilm(Temperatures):
@@ -93,7 +94,7 @@ class StripFilm(Temperatures):
         area = self._share * units.mirrors * units.radius**2
         ring = model.film.ring
         areas = area * np.outer(ring.width, np.diff(self._edges))
-        self.columns, self._areas = _Columns.of(ring), areas
+        self.columns = _Columns.of(ring, self._edges)
         asked = model.options.cells[0], units.radius
         labels = groove_numbers(self.columns.angle, self.z, end, supply, *asked)
         count, own = units.pockets.count, ring.groove & (labels < 0).all(axis=1)
@@ -114,11 +115,6 @@ class StripFilm(Temperatures):
     def growth(self) -> Array:
         """Growth of the gap of the cells by heat, (nx, nz), m."""
         return self._grown
-
-    @property
-    def mean_growth(self) -> float:
-        """The same on average over the cells, m."""
-        return float(np.average(self._grown, weights=self._areas))
 
     @property
     def _clearance(self) -> float:

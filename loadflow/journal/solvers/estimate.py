@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, cast
 
@@ -15,7 +16,6 @@ from loadflow.journal.solvers.pad_estimate import on_pads
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.asperity_load import AsperityLoad
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap import BoreGap
     from loadflow.journal.film.gap_shaped import ShapedGap
@@ -134,33 +134,36 @@ def closer_of(film: DiscreteFilm, load: Array, position: Array) -> Array:
     size, asperities = math.hypot(*load), film.contact
     if asperities is None or size == 0.0:
         return position
-    straight = _until_pressed(film, asperities, position, load / size, size)
-    far = math.hypot(*position[:2])
-    if math.isinf(straight):
-        return position
-    if film.speed != 0.0 and 0.0 < far < straight:
-        way = position[:2] / far
-        return _at(position, min(far, _until_pressed(film, asperities, position, way, size)) * way)
-    return _at(position, straight * load / size)
+    far, toward = math.hypot(*position[:2]), load / size
+    turns = film.speed != 0.0 and far > 0.0
+    way = position[:2] / far if turns else toward
 
-
-def _until_pressed(
-    film: DiscreteFilm, asperities: AsperityLoad, held: Array, way: Array, size: float
-) -> float:
-    """Eccentricity ratio along `way` up to which asperities carry less than `size`, N."""
-
-    def carries(ratio: float) -> bool:
-        place = _at(held, ratio * way)
+    def carries(ratio: float, way: Array) -> bool:
+        """Whether asperities carry as much as the load at an eccentricity ratio."""
+        place = _at(position, ratio * way)
         if not film.gap.narrowest(place) > 0.0:
             return True
         return math.hypot(*asperities.at(place).load[:2]) >= size
 
+    if turns and not (carries(far, way) or carries(far, toward)):  # most films: two are cheap
+        return position
+    straight = _until_pressed(lambda ratio: carries(ratio, toward), film.gap.roughness)
+    if math.isinf(straight):
+        return position
+    if turns and far < straight:
+        pressed = _until_pressed(lambda ratio: carries(ratio, way), film.gap.roughness)
+        return _at(position, min(far, pressed) * way)
+    return _at(position, straight * toward)
+
+
+def _until_pressed(carries: Callable[[float], bool], roughness: float) -> float:
+    """Eccentricity ratio up to which asperities carry less than the load."""
     low, high = 0.0, 1.0
     while not carries(high) and high < _FAR:
         low, high = high, 2.0 * high
     if high >= _FAR:
         return math.inf
-    while high - low > _FINE * film.gap.roughness:
+    while high - low > _FINE * roughness:
         middle = 0.5 * (low + high)
         low, high = (low, middle) if carries(middle) else (middle, high)
     return low

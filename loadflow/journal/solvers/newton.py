@@ -31,6 +31,9 @@ _HELD = 1e-5  # share of it that pads must be let go, where they would tilt the 
 _STILL = 1e-13  # Newton step, clearances, that rounding makes: it need not lead anywhere
 _STUCK = 1e-3  # share of a Newton step that must be left by an elastic shell
 _PRESSING = 4  # steps in a row of which asperities leave less, after which their law has ended
+_OVERLOADED = (
+    300.0  # of the load, carried by a shell and asperities pressed so that none leads back
+)
 
 
 @dataclass(frozen=True)
@@ -248,7 +251,9 @@ def solve_equilibrium(
     pads = film.gap.pads.size > 0
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
-    pressing = 0
+    pressing, most = 0, math.inf
+    if film.contact is not None and film.elastic:
+        most = _OVERLOADED * film.load_scale(force)
     for iteration in range(1, max_iterations + 1):
         velocity = motion.velocity(position)
         damped = moving or change < NEARLY
@@ -257,6 +262,8 @@ def solve_equilibrium(
         except SingularFilm:
             if iteration == 1:
                 return no_film(film)
+            break
+        if math.hypot(*linear.load[:2]) > most:
             break
         slope = linear.stiffness + motion.rate * linear.damping
         excess = film.size(linear.columns[0]) / STEP_LIMIT

@@ -354,7 +354,8 @@ class Statics:
         if last is not None and last.estimate is not None and _same(last.free, free):
             position = estimate.copy()
             position[free] = last.position[free]
-            reach = NEAR * film.narrowest(last.u, position)
+            # a shell opens wherever it is pressed: any film in it is nearer than none
+            reach = math.inf if film.elastic else NEAR * film.narrowest(last.u, position)
             if math.hypot(*(estimate - last.estimate)[:2]) < reach:
                 yield last.u, position
         still = np.zeros(gap.size)

@@ -198,13 +198,14 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
     def film_of(before: Solution | None) -> Solution:
         spent, worst = 0, no_film(statics.film)
         asked = some.asked
+        beside: Solution | None = None  # of the load before: what is found at once costs little
         for index in asked:
-            last = None if before is None else found.get(index)
+            last = beside if before is None else found.get(index, beside)
             solution = statics.solve(index, loads[index], float(speeds[index]), last, each)
             spent += solution.iterations
             found.pop(index, None)
             if solution.converged:
-                found[index] = worst = solution
+                found[index] = worst = beside = solution
         some.leave(set(asked) - set(found))
         if not found:
             some.why = f"; {statics.message(solution, loads[index])}"

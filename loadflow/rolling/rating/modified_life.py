@@ -18,6 +18,9 @@ from loadflow.tribology.lubricants import Oil
 Array = NDArray[np.float64]
 Kind = Literal["radial-ball", "radial-roller", "thrust-ball", "thrust-roller"]
 
+SLOW_POWER = 0.83
+"""Power of the speed, below 1000 1/min, that κ follows: ν₁ falls with it [ISO 281 (28)]."""
+
 LARGEST_FACTOR = 50.0  # of a_ISO
 LEAST_FACTOR = 0.1
 KAPPA_RANGE = (0.1, 4.0)  # below: no factor; above: counts as the upper end
@@ -99,7 +102,7 @@ def reference_viscosity(speed: ArrayLike, pitch_diameter: float) -> Array:
         m.
     """
     n = np.abs(np.asarray(speed, float)) * 30 / math.pi
-    slow = safety.ratio(45_000.0, np.minimum(n, 1000.0) ** 0.83)
+    slow = safety.ratio(45_000.0, np.minimum(n, 1000.0) ** SLOW_POWER)
     fast = 4500.0 / np.sqrt(np.maximum(n, 1000.0))
     return np.asarray(np.where(n < 1000, slow, fast) / math.sqrt(pitch_diameter * 1e3) * 1e-6)
 

@@ -49,9 +49,9 @@ class Effect:
         What the scene must say for the effect to be on.
     concerns : callable
         Scene → whether the effect can be there at all, on or off.
-    cost : callable, optional
+    cost : callable
         Scene with the effect on → time of its stage over that without, beyond what the ladder's
-        rung tells; None where it is not measured.
+        rung tells.
     rungs : tuple of str
         Rungs that know it, by the setting ``rung`` of the section; empty: all.
     partly : tuple of (str, str)
@@ -61,6 +61,10 @@ class Effect:
     solves : bool
         Whether its indicator solves films, which asks for their compiled loops: a pilot, which
         measures the effect, does without it.
+    probe : str
+        Model whose probe measures it; empty: `model`.
+    stated : callable, optional
+        Scene → whether it decides the effect, where `keys` say more than that.
     muted : callable
         Scene with the effect on → what makes series that its probe reads into such in which it has
         no size: so a pilot asks what leaving it out changes on loops that are compiled anyway. None
@@ -76,7 +80,7 @@ class Effect:
     out: str
     needs: str = ""
     concerns: Callable[[Scene], bool] = lambda scene: True
-    cost: Callable[[Scene], float] | None = lambda scene: 1.0
+    cost: Callable[[Scene], float] = lambda scene: 1.0
     rungs: tuple[str, ...] = ()
     partly: tuple[tuple[str, str], ...] = ()
     own_kernels: bool = False
@@ -84,6 +88,13 @@ class Effect:
     larger: Callable[[Scene], float] = lambda scene: UNSURE
     smaller: float = 4.0
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
+    probe: str = ""
+    stated: Callable[[Scene], bool] | None = None
+
+    @property
+    def probed(self) -> str:
+        """Model whose probe measures it."""
+        return self.probe or self.model
 
     @property
     def section(self) -> str:
@@ -98,6 +109,8 @@ class Effect:
 
     def is_open(self, scene: Scene) -> bool:
         """Whether the scene leaves it to the plan."""
+        if self.stated is not None:
+            return not self.stated(scene)
         places = (key.split(".") for key in self.keys)
         return all(key not in getattr(scene, name).model_fields_set for name, key in places)
 

@@ -9,8 +9,11 @@ import numpy as np
 
 from loadflow.data import gains
 from loadflow.journal import Turbulence
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import floats_in_films
 from loadflow.shaft.beam import ShaftSection
+from loadflow.stages.effects.clearances import closed_ends
 from loadflow.stages.effects.effect import Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
@@ -71,10 +74,15 @@ def _motion(at: Situation) -> Sizes:
         change = THREE_P * (1 - left) * load.swing / np.maximum(load.radial + load.swing, 1.0)
         change = np.where(at.turns, change, 0.0)
         gain = gains()["journal"]
-        found.append(
-            worst(film, gain["eccentricity ratio"] * change, gain["maximum pressure"] * change)
-        )
+        # the mean of the friction moves less than its extremes
+        power = MEAN * gain["friction power"] * float(np.max(change))
+        moved = (gain[name] * change for name in ("eccentricity ratio", "maximum pressure"))
+        found.append(worst(film, *moved, power))
     return largest(found)
+
+
+MEAN = 0.5
+"""Change of a mean by motion over that of an extreme; docs/physics.md."""
 
 
 def always_turns(scene: Scene) -> bool:
@@ -111,15 +119,22 @@ MOTION = Effect(
 # --- tilt, shell, contact, turbulence, supply ------------------------------------------------
 
 
+def turn_of_bore(journal: Journal) -> float:
+    """How far a bore is turned, rad; 0 of one that follows the shaft."""
+    return 0.0 if journal.alignment == "mean" else float(np.hypot(*journal.alignment))
+
+
 def _tilt(at: Situation) -> Sizes:
     """Slope of the shaft in its bore × width / (2 film): what tilt takes from the film at one end.
 
     A cantilever of the span between the bearings under the moment at the hub, as wide as the beam
     of the suspension, or as the bearing with a bore of `HOLLOW` where there is none. The shares in
-    the answers are those of a width of 3/4 of the diameter, tilted in the plane of the load.
+    the answers are those of a width of 3/4 of the diameter, tilted in the plane of the load. A
+    shaft that films are fed back to also tilts in their clearances (`closed_ends`).
     """
     scene, found = at.scene, []
     geometry = scene.journal.geometry
+    floats = closed_ends(at) if floats_in_films(scene.shaft, scene.journal) else {}
     for name, film in at.films.items():
         concept = next(c for c in scene.shaft.concepts if name in c.bearings)
         span = max(np.ptp(concept.positions), concept.positions[0])
@@ -132,9 +147,9 @@ def _tilt(at: Situation) -> Sizes:
         load = at.bearings[name]
         moment = load.radial * concept.positions[0] + load.turn
         bent = moment * span / (3.0 * STEEL * section.inertia)
-        slope = bent + np.hypot(*scene.journal.at(name).alignment)
+        slope = bent + turn_of_bore(scene.journal.at(name))
         share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
-        most = float(np.nanmax(share))
+        most = min(float(np.nanmax(share)) + floats.get(name, 0.0), 1.0)
         found.append(
             {
                 "eccentricity ratio": 0.05 * most,
@@ -147,8 +162,11 @@ def _tilt(at: Situation) -> Sizes:
 
 
 def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
-    """On the rung "reduced" a film around a shaft that may tilt has loops of its own."""
-    if scene.journal.rung != "reduced":
+    """On the rung "reduced" a film around a shaft that may tilt has loops of its own.
+
+    Not where it is followed with the shaft, which tilts as it moves.
+    """
+    if scene.journal.rung != "reduced" or scene.shaft.coupled:
         return None
     return lambda given: {**given, "shaft": aligned(scene.journal, given["shaft"])}
 
@@ -185,11 +203,11 @@ def _shell(at: Situation) -> Sizes:
     thickness = getattr(shell, "thickness", WALL * at.scene.journal.geometry.diameter)
     compliance = getattr(shell, "compliance", 0.2 * thickness / modulus)
     found = []
-    for film in at.films.values():
-        above = film.maximum_pressure - at.scene.journal.edge_pressure
+    for name, film in at.films.items():
+        above = film.maximum_pressure - at.scene.journal.at(name).edge_pressure
         share = float(np.nanmax(above * compliance / film.minimum_film))
-        names = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
-        found.append({name: min(0.25 * share, 1.0) for name in names})
+        answers = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
+        found.append({answer: min(0.25 * share, 1.0) for answer in answers})
     return largest(found)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from loadflow.scene.scene import Scene
+from loadflow.stages.stage import STEPS_PER_CASE
 
 COSTS = {
     "tilt": {"reduced": (2.6, 1.8), "grid": (3.7, 5.0)},
@@ -35,3 +36,40 @@ def cost_of(name: str) -> Callable[[Scene], float]:
         return COSTS[name].get(journal.rung, (1.0, 1.0))[journal.in_motion]
 
     return cost
+
+
+HEAT_COSTS = {
+    "balance": {"reduced": (4.8, 1.0, 900), "grid": (4.6, 1.0, 280)},
+    "film": {"reduced": (460.0, 1.9, 20_000), "grid": (45.0, 1.1, 480)},
+}
+"""Of a heat balance and of heat over the area, by rung: time at rest over that without, of a step
+in motion over one without, and what is solved before the first step, in steps without; measured as
+`COSTS`."""
+
+
+def cost_of_heat(scene: Scene) -> float:
+    """Time of the films of a scene with heat over that without; other rungs as "reduced".
+
+    In motion the temperature of a series is found once, which counts the less the longer it is.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> from loadflow.stages.effects.film_costs import cost_of_heat
+    >>> warm = {"rung": "reduced", "heat": {}}
+    >>> cost_of_heat(make_scene({"journal": warm}))
+    4.8
+    >>> moving = {"journal": warm | {"motion": "transient"}}
+    >>> [round(cost_of_heat(make_scene(moving | {"loads": {"duration": t}})), 2) for t in (60, 600)]
+    [1.38, 1.04]
+    """
+    journal = scene.journal
+    heats = [heat for name in journal.bearings if (heat := journal.at(name).heat) is not None]
+    kind = "film" if any(heat.over_area for heat in heats) else "balance"
+    at_rest, step, before = HEAT_COSTS[kind].get(journal.rung, HEAT_COSTS[kind]["reduced"])
+    if not journal.in_motion:
+        return at_rest
+    loads, steps = scene.loads, float(STEPS_PER_CASE)
+    if loads.source == "simulate" and loads.duration:
+        steps = loads.duration / (loads.step * journal.every(loads.step))
+    return step + before / steps

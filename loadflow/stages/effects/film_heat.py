@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 from pydantic import ValidationError
+from scipy.special import lambertw
 
 from loadflow.data import gains
 from loadflow.errors import InputError
@@ -13,13 +14,11 @@ from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.film_costs import cost_of
+from loadflow.stages.effects.film_costs import cost_of, cost_of_heat
 from loadflow.stages.effects.film_sizes import largest, worst
-from loadflow.stages.effects.situation import Situation
+from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.tribology import Oil, lubricant
-
-HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 
 SHELL_SHARE = 0.9
 """Rise of a shell above its surroundings over that of its film, where none is stated."""
@@ -32,25 +31,53 @@ MODEL_OIL = "mineral-vg-320"
 
 
 def _heat(at: Situation) -> Sizes:
-    """What the warming of the oil takes off its viscosity: T − T_in = P/(2 ρ c_p Q).
+    """What the warming of the oil changes of the films of the charts, by its loss of viscosity.
 
-    Adiabatic, at the mean load. The film feels load over viscosity, and its friction is nearly
-    proportional to viscosity. Nothing warms where the shaft stands.
+    The temperature is that of the mean load; ε, h_min and p_max are those of the largest. Nothing
+    warms where the shaft stands.
     """
-    journal, found = at.scene.journal, []
-    for name in journal.bearings:
-        film = at.film(name, share=0.0)
-        warmer = film.warming(2.0 * journal.lubricant.density * HEAT_CAPACITY)
-        thinner = np.exp(-lubricant(MODEL_OIL).steepness(_inlet(at.scene)) * warmer)
-        gain = gains()["journal"]
-        eccentricity = thinner ** -gain["eccentricity ratio"] - 1.0
-        power = float(np.nanmax(1.0 - thinner))
-        found.append(worst(film, eccentricity, 0.3 * eccentricity, power))
+    found = []
+    for name in at.scene.journal.bearings:
+        thinner = np.exp(-_steepness(at.scene.journal.at(name)) * _rise(at, name))
+        cold, warm = (at.film(name, thinner=by) for by in (1.0, thinner))
+        usual, thin = (at.film(name, share=0.0, thinner=by) for by in (1.0, thinner))
+        found.append(
+            {
+                "eccentricity ratio": _off(cold.eccentricity_ratio, warm.eccentricity_ratio),
+                "minimum film": _off(cold.minimum_film, warm.minimum_film),
+                "maximum pressure": _off(cold.maximum_pressure, warm.maximum_pressure),
+                "friction power": _off(usual.friction_power, thin.friction_power),
+            }
+        )
     return largest(found)
 
 
-def _inlet(scene: Scene) -> float:
-    return (scene.journal.heat or Heat()).inlet_temperature
+def _off(cold: Floats, warm: Floats) -> float:
+    """Largest change against the warm film; 1 where that alone is beyond the charts."""
+    known = np.isfinite(cold) & (cold > 0.0)
+    held = np.where(np.isfinite(warm) & (warm > 0.0), warm, np.inf)
+    return float(np.abs(cold[known] / held[known] - 1.0).max(initial=0.0))
+
+
+def _rise(at: Situation, name: str) -> Floats:
+    """Rise of the temperature of a film, K: T − T_in = P/(2 ρ c_p Q), adiabatic, at the mean load.
+
+    The power falls as the oil thins: P(T) = P(T_in) exp(−`FRICTION` β (T − T_in)).
+    """
+    own = at.scene.journal.at(name)
+    falls = FRICTION * _steepness(own)
+    cold = at.film(name, share=0.0).warming(2.0 * own.volume_heat)
+    return np.asarray(lambertw(falls * cold).real) / falls
+
+
+FRICTION = 0.54
+"""d ln(friction)/d ln(viscosity) of a film under a given load: 1 less its gain with the load."""
+
+
+def _steepness(journal: Journal) -> float:
+    """β = −d ln(viscosity)/dT of the oil as it enters, 1/K."""
+    heat = journal.heat or Heat(oil=MODEL_OIL)
+    return float(heat.liquid.steepness(heat.inlet_temperature))
 
 
 def _warmed(scene: Scene, on: bool) -> Scene | None:
@@ -65,12 +92,17 @@ def _warmed(scene: Scene, on: bool) -> Scene | None:
 
 
 def _with_heat(journal: Journal, on: bool) -> Journal | None:
-    """A bearing with a heat balance; a stated viscosity is then that of the oil that enters."""
+    """A bearing with a heat balance, whose oil enters with the viscosity stated; or without.
+
+    Without, it is as warm as the oil that enters: with its viscosity, and grown as much.
+    """
     if on == (journal.heat is not None):
         return journal
     stated = journal.model_dump(exclude_unset=True, exclude={"own"})
-    if not on:
-        return type(journal).model_validate(stated | {"heat": None})
+    if journal.heat is not None:
+        held = journal.at_temperature(journal.heat.inlet_temperature)
+        cool = {"heat": None, "lubricant": held.lubricant, "geometry": held.geometry}
+        return type(journal).model_validate(stated | cool)
     stated.pop("lubricant", None)
     try:
         heat = Heat(oil=oil_of(journal.lubricant))
@@ -105,8 +137,7 @@ HEAT = Effect(
     is_on=lambda scene: scene.journal.heat is not None,
     switched=_warmed,
     indicator=_heat,
-    larger=lambda scene: 25.0,  # quick look: 2 % indicated of p_max, 38 % measured
-    cost=None,  # four times at rest, next to nothing on a long path
+    cost=cost_of_heat,
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
 )
@@ -125,8 +156,7 @@ def _growth(at: Situation) -> Sizes:
     for name in at.scene.journal.bearings:
         own, film = at.scene.journal.at(name), at.film(name, share=0.0)
         heat = own.heat or Heat()
-        carried = 2.0 * heat.lubricant(heat.inlet_temperature).density * HEAT_CAPACITY
-        warm = heat.inlet_temperature + film.warming(carried)
+        warm = heat.inlet_temperature + _rise(at, name)
         radius, ambient = own.geometry.radius, _surroundings(heat)
         growth = heat.growth
         if isinstance(growth, RingGrowth):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import film, film_heat, rolling, rotor, shaft, thrust
+from loadflow.stages.effects import clearances, film, film_heat, rolling, rotor, shaft, thrust
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
@@ -15,6 +15,7 @@ EFFECTS: list[Effect] = [
     rotor.TORSION,
     shaft.ELASTIC,
     shaft.STIFFNESS,
+    clearances.CLEARANCES,
     film.MOTION,
     film_heat.HEAT,
     film_heat.GROWTH,

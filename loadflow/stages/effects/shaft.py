@@ -54,7 +54,7 @@ def _given(scene: Scene, on: bool) -> Scene | None:
     if on:
         return scene if scene.shaft.coupled else None
     held = {
-        name: replace(concept, beam=concept.beam.on_rigid_bearings())
+        name: replace(concept, beam=concept.beam.free_in_films().on_rigid_bearings())
         for name, concept in scene.shaft.suspensions.items()
         if concept is not None and concept.beam is not None
     }

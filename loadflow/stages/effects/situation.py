@@ -180,32 +180,37 @@ class Situation:
         force[2] += np.copysign(load.surge[point], force[2])
         return _carried(few.bearing, few.film_model, float(force[2]), float(self.speed[point]))
 
-    def film(self, name: str, share: float = 1.0) -> Film:
+    def film(self, name: str, share: float = 1.0, thinner: Floats | float = 1.0) -> Film:
         """Film of a bearing under its mean load and a share of the largest deviation from it.
 
+        With `thinner` its oil has that share of the viscosity with which it enters; (n,) or one.
         A width that the charts do not know is taken at the end of their range, under the same
         specific load.
         """
-        journal, load = self.scene.journal, self.bearings[name]
+        journal, load = self.scene.journal.at(name), self.bearings[name]
         radial = load.radial + share * load.swing
         if not self.turns.any():
             return self._resting(name, radial)
         held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
-        size = journal.geometry
+        size = held.geometry
         width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
         bearing = replace(size, shape=CYLINDER, relief=(), width=width)
-        radial = radial[self.turns] * width / size.width
+        # charts know the load over the viscosity: a thinner oil is as a larger load
+        radial = (radial / thinner)[self.turns] * width / size.width
         force, speed = np.stack([radial, np.zeros_like(radial)], axis=-1), self.speed[self.turns]
         film = bearing.equilibrium(force, speed, held.lubricant, rung="chart", strict=False)
         columns = {name: np.full(self.speed.shape, np.nan) for name in Film.__dataclass_fields__}
         for one, values in columns.items():
             values[self.turns] = getattr(film, one)
-        columns["friction_power"] *= size.width / width
+        columns["friction_power"] *= size.width / width * thinner
+        columns["maximum_pressure"] *= thinner
+        columns["maximum_pressure"] += held.edge_pressure  # that of charts is above it
         return Film(**columns)
 
     def _resting(self, name: str, radial: Floats) -> Film:
         """What a shaft rests on that stands at all points."""
-        own, size = self.scene.journal.at(name), self.scene.journal.geometry
+        own = self.scene.journal.at(name)
+        size = own.geometry
         gap, nothing = np.full(radial.shape, own.contact_film), np.zeros(radial.shape)
         pressed = own.edge_pressure + 4.0 / np.pi * radial / (size.diameter * size.width)
         return Film(1.0 - gap / size.clearance, gap, pressed, nothing, nothing.copy())

@@ -76,6 +76,12 @@ def _has_collars(scene: Scene) -> bool:
     return bool(scene.thrust.collars) and scene.wants("thrust")
 
 
+def _may_tilt(scene: Scene) -> bool:
+    """Whether the shaft tilts in a collar: pads that align themselves follow it."""
+    fixed = (one for one in scene.thrust.collars.values() if not one.self_aligning)
+    return _has_collars(scene) and any(fixed)
+
+
 def _motion(
     at: Situation, collar: ThrustCollar, load: BearingLoad, k: int, film: DoubleThrustResult
 ) -> Sizes:
@@ -149,13 +155,15 @@ PRESSED = 0.105
 def _warmed(scene: Scene, on: bool) -> Scene | None:
     """The scene with a heat balance of each collar, or without any.
 
-    A stated viscosity is then that of the oil that enters.
+    A stated viscosity is that of the oil that enters, with and without.
     """
     changed: dict[str, AnyAxial] = {}
     for place, collar in scene.thrust.collars.items():
         stated = collar.model_dump(exclude_unset=True) | {"grid": collar.grid}
-        stated.pop("heat" if not on else "lubricant", None)
-        if on and collar.heat is None:
+        if not on:
+            stated |= {"heat": None, "lubricant": collar.oil}
+        elif collar.heat is None:
+            stated.pop("lubricant", None)
             try:
                 stated["heat"] = PadHeat(oil=oil_of(collar.lubricant))
             except InputError:
@@ -196,7 +204,8 @@ def _tilt(
     Under the same load: h_min within 6 % of the change for x up to 0.8; the largest pressure grows
     by 1.4 to 2.8 x, the friction falls by 0.11 x². Pads that follow the shaft lose less.
     """
-    share = float(load.slope[k]) * collar.geometry.outer_radius / film.minimum_film
+    slope = 0.0 if collar.self_aligning else float(load.slope[k])
+    share = slope * collar.geometry.outer_radius / film.minimum_film
     return {
         "minimum film": share / (1.0 + 0.85 * share),
         "maximum pressure": 2.5 * share,
@@ -217,7 +226,7 @@ TILT = Effect(
     indicator=_worst(_tilt),
     out="no thrust.tilt: pads are aligned with the collar, however the shaft bends",
     needs="thrust.tilt = true, with a beam as the shaft; pads that follow it lose less",
-    concerns=_has_collars,
+    concerns=_may_tilt,
     solves=True,
     cost=cost_of("tilt"),
     smaller=SMALLER,

@@ -1,0 +1,444 @@
+"""Compiled loop of one shaft in two reduced films with effects: a march of both through time.
+
+The shaft is rigid between both films: four coordinates say where it is in them. Films and shaft
+are solved by one Newton iteration, with steps, factors and limits as in `_composed_loops`.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.cavitation import LOAD
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._compile import inner, once, outer
+from loadflow.journal.models._composed_gap_kernels import (
+    has_gap,
+    narrowest,
+    place,
+    share_of_step,
+    touch,
+    turn,
+)
+from loadflow.journal.models._composed_kernels import balance, carry, matrix, slopes_of_balance
+from loadflow.journal.models._composed_loops import (
+    ALIKE,
+    KEPT,
+    MORE,
+    ROOM,
+    correct,
+    keep,
+    share_inside,
+)
+from loadflow.journal.models._integral_kernels import summarise
+from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
+from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._small_systems import solve_system
+from loadflow.journal.models._step_kernels import leaves_room
+from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
+from loadflow.journal.models.composed_film import Composed, ComposedWork
+from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
+from loadflow.numerics.references import refer
+
+Array = NDArray[np.float64]
+
+
+class Side(NamedTuple):
+    """One of the two films.
+
+    Attributes
+    ----------
+    film : Composed
+        Its constants.
+    work : ComposedWork
+        Its work arrays, which hold the film at the first time.
+    lies : array (4, 4)
+        Place of the shaft in it by the four coordinates.
+    felt : array (4, 4)
+        What the coordinates feel of its load.
+    turned : array (4, 4)
+        Place by the moments of both films, N, over the radius of each; of (2,) two rows are used.
+    given : array (n, 4)
+        Place where coordinates and moments are 0.
+    bend : array (n, 2)
+        Curvature of the shaft.
+    stop : array (2,)
+        Gap at a bearing end, clearances, below which surfaces touch, and the load there, N, at
+        which it would close; no load: they do not.
+    place, new : array (4,)
+        At the last time, and at the next.
+    past : array (8,)
+        Place at the time before the last; bend then, and at the last.
+    rows : array (n, RESULTS)
+        Results, but for the first row filled.
+    thin : array (2,)
+        Viscosity and density of the oil over those of the film.
+    warmth : Warmth
+        Heat that is stored.
+    states : array (n, STATES)
+        As `slow_heat` fills them.
+    """
+
+    film: Composed
+    work: ComposedWork
+    lies: Array
+    felt: Array
+    turned: Array
+    given: Array
+    bend: Array
+    stop: Array
+    place: Array
+    new: Array
+    past: Array
+    rows: Array
+    thin: Array
+    warmth: Warmth
+    states: Array
+
+
+class Shared(NamedTuple):
+    """The shaft in both films.
+
+    Attributes
+    ----------
+    load : array (n, 4)
+        What the coordinates are to feel, N.
+    at, before, new, step, missing, moment : array (4,)
+        Coordinates at the last two times and at the next, their step, the load that is missing, and
+        moments of both films at the last time.
+    system : array (4, 5)
+        Linear system of a step.
+    steps : array (1,)
+        Step to the last time, s.
+    """
+
+    load: Array
+    at: Array
+    before: Array
+    new: Array
+    step: Array
+    missing: Array
+    moment: Array
+    system: Array
+    steps: Array
+
+
+@inner
+def _lay(side, q, coordinates, moment, n, to):
+    """Place `q` (4,) of the shaft in a film by its coordinates, between the times n − 1 and n."""
+    for a in range(4):
+        q[a] = side.given[n - 1, a] + to * (side.given[n, a] - side.given[n - 1, a])
+        for b in range(4):
+            q[a] += side.lies[a, b] * coordinates[b] + side.turned[a, b] * moment[b]
+
+
+@once
+def _stop(side):
+    """Add what holds the shaft where it touches a bearing end to `touch` of smooth surfaces."""
+    film, work, gap = side.film, side.work, side.stop[0]
+    load, stiffness = work.touch[0], work.touch[1:]
+    points = film.nodes.z.size
+    for end in range(points - film.nodes.ends.size, points):
+        z, ex, ey = film.nodes.z[end], work.centre[0, end], work.centre[1, end]
+        ratio = np.hypot(ex, ey)
+        overlap = gap - (1.0 + film.places.depth[end] - ratio)
+        if not overlap > 0.0:
+            continue
+        force = side.stop[1] * (overlap / gap) ** 2
+        along, aside = 2.0 * side.stop[1] * overlap / (gap * gap), force / ratio
+        c, s = ex / ratio, ey / ratio
+        xx = along * c * c + aside * s * s
+        xy = (along - aside) * c * s
+        yy = along * s * s + aside * c * c
+        load[0] += force * c
+        load[1] += force * s
+        load[2] -= force * s * z
+        load[3] += force * c * z
+        stiffness[0, 0] += xx
+        stiffness[0, 1] += xy
+        stiffness[0, 2] -= xy * z
+        stiffness[0, 3] += xx * z
+        stiffness[1, 1] += yy
+        stiffness[1, 2] -= yy * z
+        stiffness[1, 3] += xy * z
+        stiffness[2, 2] += yy * z * z
+        stiffness[2, 3] -= xy * z * z
+        stiffness[3, 3] += xx * z * z
+    for a in range(4):
+        for b in range(a):
+            stiffness[a, b] = stiffness[b, a]
+
+
+@once
+def _residual(one, other, shared, speed, rate, scale):
+    """Largest residual of both films and of the load that is missing, which goes into `missing`."""
+    residual = 0.0
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        wedge = 0.5 * film.ring.slope * side.thin[0] * speed
+        flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
+        residual = max(residual, balance(film, work, wedge, side.thin[0] * rate) / flux)
+        residual = max(residual, unfed(film, work))
+        touch(film, work, side.new)
+        if side.stop[1] > 0.0:
+            _stop(side)
+        if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
+            return np.inf
+        if film.give > 0.0 and not has_gap(film, work):
+            return np.inf
+        for b in range(4):
+            for a in range(4):
+                shared.missing[b] -= side.felt[a, b] * (work.load[a] + work.touch[0, a])
+    total = 0.0
+    for b in range(4):
+        total += shared.missing[b] ** 2
+    return max(residual, np.sqrt(total) / scale)
+
+
+@once
+def _solve(one, other, shared, speed, rate, fresh):
+    """Newton step of the shaft into `step`, and of both films into their columns; if there is."""
+    system, size = shared.system, 4
+    system[:] = 0.0
+    for b in range(size):
+        system[b, size] = -shared.missing[b]
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        columns, wedge = 1, 0.5 * film.ring.slope * side.thin[0] * speed
+        if fresh:
+            slopes_of_balance(film, work, wedge, side.thin[0] * rate, size)
+            matrix(film, work, wedge, side.thin[0] * rate)
+            work.kept[0] = 0.0
+            if not factorise(work.matrix):
+                return False
+            work.kept[0], work.kept[1], columns = 1.0, side.thin[0] * rate, 1 + size
+            columns = answers_of_grooves(film, work, columns)
+        substitute(work.matrix, work.columns, columns)
+        follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
+        carry(film, work, size)
+        for c in range(size):
+            for a in range(size):
+                system[c, size] -= side.felt[a, c] * work.carried[0, a]
+                for b in range(size):
+                    slope = work.carried[1 + b, a] - work.touch[1 + b, a]
+                    for d in range(size):
+                        system[c, d] += side.felt[a, c] * slope * side.lies[b, d]
+    if not solve_system(system, size):
+        return False
+    for b in range(size):
+        shared.step[b] = system[b, size]
+    return True
+
+
+@once
+def _shortened(one, other, shared):
+    """Shorten the `step` until films keep part of their gap, and change by their own pressure."""
+    share = 1.0
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        change, peak = 0.0, film.ring.scale
+        for i in range(film.ring.cos.size):
+            for j in range(film.nodes.slopes.shape[1]):
+                change = max(change, abs(work.columns[0, i, j]))
+                peak = max(peak, work.state[LOAD, i, j])
+        share = min(share, peak * STEP_LIMIT / max(change, 1e-300))
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        for a in range(4):
+            work.step[a] = 0.0
+            for b in range(4):
+                work.step[a] += share * side.lies[a, b] * shared.step[b]
+        if film.give == 0.0 and film.ring.shaped:
+            way = work.step[0], work.step[1], work.step[2], work.step[3]
+            share *= share_of_step(film, work, way[0], way[1], way[2], way[3], KEPT)
+        elif film.give == 0.0:
+            share *= share_inside(film, work, work.step)
+    for b in range(4):
+        shared.step[b] *= share
+
+
+@once
+def _advance(one, other, shared):
+    """Move films and shaft by the Newton step, or by the share of it that leaves elastic films."""
+    share, done = 1.0, 0.0
+    for k in range(2):
+        side = one if k == 0 else other
+        work = side.work
+        gap = narrowest(side.film, work)
+        work.step[0] = max(
+            gap - (1.0 - KEPT) * max(gap, side.film.rough.size), -side.film.rough.deepest
+        )
+        for i in range(work.u.shape[0]):
+            for j in range(work.u.shape[1]):
+                work.trial[i, j] = work.u[i, j]
+    least_one, least_other = one.work.step[0], other.work.step[0]
+    while True:
+        open_yet = True
+        for k in range(2):
+            side = one if k == 0 else other
+            film, work = side.film, side.work
+            for a in range(4):
+                work.step[a] = 0.0
+                for b in range(4):
+                    work.step[a] += side.lies[a, b] * shared.step[b]
+            correct(film, work, work.step, 4, share)
+            for a in range(4):
+                side.new[a] += (share - done) * work.step[a]
+            place(film, work, side.new)
+            if film.give > 0.0:
+                least = least_one if k == 0 else least_other
+                open_yet = open_yet and narrowest(film, work) >= least
+        for b in range(4):
+            shared.new[b] += (share - done) * shared.step[b]
+        done = share
+        if open_yet or share < ROOM:
+            return
+        share *= 0.5
+
+
+@once
+def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
+    """Films and shaft that carry the load between two times; residual, steps, whether it is small.
+
+    Starts from the unknowns of both films and `new`.
+    """
+    total = 0.0
+    for k in range(2):
+        side = one if k == 0 else other
+        for a in range(4):
+            side.work.step[a] = 0.0
+        thin = side.thin[0]
+        turn(side.film, side.work, thin * speed, side.thin[1] / (thin * thin))
+        place(side.film, side.work, side.new)
+    for b in range(4):
+        total += (shared.load[n - 1, b] + to * (shared.load[n, b] - shared.load[n - 1, b])) ** 2
+    scale = max(np.sqrt(total), 0.5e-3 * one.film.ring.scale * one.film.ring.area)
+    spent, last = 0, np.inf
+    while True:
+        for b in range(4):
+            shared.missing[b] = shared.load[n - 1, b]
+            shared.missing[b] += to * (shared.load[n, b] - shared.load[n - 1, b])
+        residual = _residual(one, other, shared, speed, rate, scale)
+        if residual < tolerance:
+            return residual, spent, True
+        if spent == max_iterations or not residual < np.inf:
+            return residual, spent, False
+        kept = one.work.kept[0] > 0.0 and other.work.kept[0] > 0.0
+        fresh = not (kept and residual * (residual / last) ** MORE < tolerance)
+        spent, last = spent + 1, residual
+        if not _solve(one, other, shared, speed, rate, fresh):
+            return residual, spent, False
+        _shortened(one, other, shared)
+        _advance(one, other, shared)
+
+
+@once
+def _set_out(one, other, begin):
+    """Make both films those of the last time; from the third time on, others before them, too."""
+    for k in range(2):
+        side = one if k == 0 else other
+        film, work = side.film, side.work
+        for a in range(2 if begin > 1 else 1):
+            first = begin > 1 and a == 0
+            for i in range(work.u.shape[0]):
+                for m in range(work.u.shape[1]):
+                    if first:
+                        work.trial[i, m], work.u[i, m] = work.last[i, m], work.before[i, m]
+                    elif begin > 1:
+                        work.u[i, m] = work.trial[i, m]
+            for b in range(2):
+                work.bend[b] = side.past[4 + b] if first else side.past[6 + b]
+            for b in range(4):
+                side.new[b] = side.past[b] if first else side.place[b]
+            place(film, work, side.new)
+            keep(work)
+
+
+@outer
+def follow(first, second, shared, begin, time, speed, tolerance, max_iterations):
+    """Steps of both films and of the shaft through all times; returns how many times are done.
+
+    They go on from `begin`: from films at rest at the first time, or from those that are there.
+    Steps are those of `_composed_loops.solve`: of second order, cut where Newton fails. How the
+    moments of the films bend the shaft is that of the last time.
+    """
+    one, other, shared = refer(first), refer(second), refer(shared)
+    _set_out(one, other, begin)
+    step_before = shared.steps[0] if begin > 1 else 0.0
+    for n in range(begin, time.size):
+        whole = time[n] - time[n - 1]
+        share, done, spent = 1.0, 0.0, 0
+        for k in range(2):
+            side = one if k == 0 else other
+            shared.moment[2 * k] = side.rows[n - 1, at.MOMENT_X]
+            shared.moment[2 * k + 1] = side.rows[n - 1, at.MOMENT_Y]
+            if side.warmth.on:
+                side.thin[0] = slow_heat(
+                    side.warmth, side.states, n, whole, speed, side.rows, at.DISSIPATION, at.NORMAL
+                )
+                side.thin[1] = lighter(side.warmth, side.states, n)
+        while done < 1.0:
+            to = 1.0 if done + 1.01 * share > 1.0 else done + share
+            step = (to - done) * whole
+            rate, weight, weight_before, ratio = two_steps(step, step_before)
+            omega = speed[n - 1] + to * (speed[n] - speed[n - 1])
+            ahead = step_before > 0.0
+            for b in range(4):
+                shared.new[b] = shared.at[b]
+                if ahead:
+                    shared.new[b] += ratio * (shared.at[b] - shared.before[b])
+            for k in range(2):
+                side = one if k == 0 else other
+                film, work = side.film, side.work
+                _lay(side, side.new, shared.new, shared.moment, n, to)
+                for a in range(2):
+                    work.bend[a] = side.bend[n - 1, a]
+                    work.bend[a] += to * (side.bend[n, a] - side.bend[n - 1, a])
+                ahead = ahead and (film.give > 0.0 or leaves_room(film, work, side.place, side.new))
+            if not ahead:
+                for b in range(4):
+                    shared.new[b] = shared.at[b]
+            for k in range(2):
+                side = one if k == 0 else other
+                work = side.work
+                _lay(side, side.new, shared.new, shared.moment, n, to)
+                thin = side.thin[0]
+                predict(work, ratio, ahead, thin * weight, thin * weight_before)
+                if not ahead or abs(thin * rate - work.kept[1]) > ALIKE * work.kept[1]:
+                    work.kept[0] = 0.0
+            residual, iterations, converged = _newton(
+                one, other, shared, n, to, omega, rate, tolerance, max_iterations
+            )
+            spent += iterations
+            if converged:
+                for k in range(2):
+                    side = one if k == 0 else other
+                    keep(side.work)
+                    for a in range(4):
+                        side.past[a], side.place[a] = side.place[a], side.new[a]
+                    for a in range(2):
+                        side.past[4 + a], side.past[6 + a] = side.past[6 + a], side.work.bend[a]
+                for b in range(4):
+                    shared.before[b], shared.at[b] = shared.at[b], shared.new[b]
+                step_before, share, done = step, min(2.0 * share, 1.0), to
+                shared.steps[0] = step
+            elif share > SMALLEST:
+                share *= 0.5
+                one.work.kept[0], other.work.kept[0] = 0.0, 0.0
+            else:
+                return n
+        for k in range(2):
+            side = one if k == 0 else other
+            wedge = 0.5 * side.film.ring.slope * side.thin[0] * omega
+            rate_k = side.thin[0] * rate
+            summarise(side.film, side.work, side.place, wedge, rate_k, side.rows[n])
+            side.rows[n, at.RESIDUAL] = residual
+            side.rows[n, at.ITERATIONS] = spent
+            side.rows[n, at.CONVERGED] = 1.0
+    return time.size

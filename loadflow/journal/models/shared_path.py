@@ -1,0 +1,338 @@
+"""One shaft in two reduced films with effects, followed through time.
+
+Both films and the shaft are one system: each film has the loads, and the shaft the tilt, that the
+other one leaves. The shaft is rigid between the films; how their moments bend it, and turn
+housings, is that of the last step. Films in smooth bores do not keep shaft and shell apart for sure
+where it is pressed on a bearing end, as cells are wider than the film is long there; what surfaces
+that touch do is done by a stop at each end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.line import Line
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models._shared_loops import Shared, Side, follow
+from loadflow.journal.models.composed_film import Composed
+from loadflow.journal.models.composed_model import (
+    LEVELS,
+    ComposedFilm,
+    build,
+    contact_share,
+    rubs,
+    unknowns_on,
+)
+from loadflow.journal.models.composed_path import LONG, STRETCH
+from loadflow.journal.models.ring import no_start
+from loadflow.journal.models.slow_heat import (
+    COLD,
+    THIN,
+    cooled,
+    lighter,
+    slow_states,
+    standing_states,
+)
+from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
+from loadflow.numerics.convergence import Limits
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+_HOLDS = 4.0  # times the largest load, at which a gap at a bearing end would be closed
+_SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)  # of the way out of the middle
+_ROOM = 0.1  # gap, clearances, that the first place leaves at bearing ends
+_NOW = np.zeros(1)
+
+
+class Lying(NamedTuple):
+    """How a shaft lies in two films, and loads them.
+
+    Attributes
+    ----------
+    force : array (n, 2, 2)
+        Load on each film if none takes a moment, N: (time, film, axis).
+    tilt : array (n, 2, 2)
+        Of the shaft in each film then, if it is in the middle of both, rad.
+    bend : array (n, 2, 2)
+        Its curvature in each film, 1/m.
+    by_position : array (2, 2, 2, 2)
+        Tilt by position in the films, rad/m: (film, axis, film, axis).
+    by_moment : array (2, 2, 2, 2)
+        Tilt by the moments of the films, rad/(N m), as the shaft bends and what it rests on turns.
+    felt : array of bool (2,)
+        Whether the shaft feels the moment of each film.
+    touching : array (2,)
+        Gap, m, below which shaft and shell touch at a bearing end.
+    """
+
+    force: Array
+    tilt: Array
+    bend: Array
+    by_position: Array
+    by_moment: Array
+    felt: NDArray[np.bool_]
+    touching: Array
+
+
+@dataclass(frozen=True)
+class SharedPath:
+    """Path of a shaft in two films; first dimension time, second the film.
+
+    Attributes
+    ----------
+    position, tilt : array (n, 2, 2)
+        m; rad.
+    moment : array (n, 2, 2)
+        Of the shaft on the film and what it touches, N m.
+    paths : list of xarray.Dataset
+        Of each film, as `JournalBearing.orbit` gives it.
+    """
+
+    position: Array
+    tilt: Array
+    moment: Array
+    paths: list[xr.Dataset]
+
+
+def follow_shared(
+    bearings: Sequence[JournalGeometry],
+    options: Sequence[Film],
+    time: Array,
+    speed: Array,
+    lying: Lying,
+    control: Limits,
+    temperature: Sequence[float] = (0.0, 0.0),
+) -> SharedPath:
+    """Follow a shaft in two films.
+
+    Parameters
+    ----------
+    bearings, options : sequence
+        The two bearings and their films, with no heat over the area.
+    time, speed : array (n,)
+        s; rad/s.
+    lying : Lying
+        How the shaft lies in them.
+    control : Limits
+        How hard each step is solved.
+    temperature : sequence of float
+        Of both films at the first time, K, where they store heat.
+
+    Raises
+    ------
+    OrbitStopped
+        No film to begin with, or a step that fails even when cut to 1/256.
+    """
+    march = _March(bearings, options, time, speed, lying, control, temperature)
+    march.begins()
+    done, level, samples = 1, LEVELS[0], STRETCH
+    while done < time.size:
+        end = min(done + samples, time.size)
+        reached = march.goes_on(level, done, end)
+        unresolved = reached < end or march.unresolved(done, end, at.HIGHEST)
+        if unresolved and level != LEVELS[-1]:  # a stretch alone asks for more points
+            march.goes_back()
+            level, samples = level + (samples == STRETCH), STRETCH
+            continue
+        if reached < end:
+            raise march.stops(reached)
+        if level == LEVELS[0]:
+            samples = min(2 * samples, LONG)
+        elif not march.unresolved(done, end, at.BEYOND):
+            level = LEVELS[0]
+        done = end
+    return march.told()
+
+
+class _March:
+    """The loop over films and shaft, on the points across that stretches ask for."""
+
+    def __init__(
+        self,
+        bearings: Sequence[JournalGeometry],
+        options: Sequence[Film],
+        time: Array,
+        speed: Array,
+        lying: Lying,
+        control: Limits,
+        temperature: Sequence[float],
+    ) -> None:
+        self.time, self.speed, self.lying, self.control = time, speed, lying, control
+        size = np.hypot(*np.moveaxis(lying.force, -1, 0))
+        area = np.array([bearing.width * bearing.diameter for bearing in bearings])
+        self.typical, self.level = size.mean(axis=0) / area, LEVELS[0]
+        most = size.max(axis=0) / area
+        self.films = {n: self._films(bearings, options, most, n) for n in LEVELS}
+        first = self.films[LEVELS[0]]
+        self.sides = [_side(k, first, lying, temperature[k]) for k in range(2)]
+        load = sum(lying.force[:, k] @ side.felt[:2] for k, side in enumerate(self.sides))
+        self.shared = Shared(np.array(load), *np.zeros((6, 4)), np.zeros((4, 5)), np.zeros(1))
+        self.before: list[tuple[Array, Array]] = []
+
+    def _films(
+        self, bearings: Sequence[JournalGeometry], options: Sequence[Film], most: Array, level: int
+    ) -> list[ComposedFilm]:
+        """Both films with the points across of a level, up to `most` load over area, Pa."""
+        models = []
+        for k, (bearing, film) in enumerate(zip(bearings, options)):
+            line = Line(tilt=self.lying.tilt[:, k], bend=self.lying.bend[:, k])
+            model = build(bearing, film, self.speed, line, level)
+            model.units.raise_scale(float(most[k]))
+            ring = model.film.ring._replace(scale=model.units.scale)
+            models.append(replace(model, film=model.film._replace(ring=ring)))
+        if len({type(model.film) for model in models}) > 1:  # the loop knows two of one kind
+            models = [replace(model, film=Composed(*model.film)) for model in models]
+        return models
+
+    def begins(self) -> None:
+        """Films at the first time, around a shaft that lies as near its loads as it can.
+
+        Under these alone, aligned, it may lie so far apart in both films that it has no place.
+        """
+        models = self.films[LEVELS[0]]
+        far = []
+        for k, (side, model) in enumerate(zip(self.sides, models)):
+            along = np.concatenate([np.zeros((1, 2)), side.bend[:1]], axis=1)
+            far.append(model.estimates(self.lying.force[:1, k], self.speed[:1], along)[0, :2])
+        for share in _SHARES:
+            self.shared.at[:] = share * np.concatenate(far)
+            for side in self.sides:
+                side.place[:] = side.lies @ self.shared.at + side.given[0]
+            both = zip(self.sides, models)
+            if min(m.least(s.place[None], s.bend[:1])[0] for s, m in both) > _ROOM:
+                break
+        for k, (side, model) in enumerate(zip(self.sides, models)):
+            _held(side, model, self.lying.force[:1, k], self.speed[:1], self.control)
+            side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
+        self.shared.before[:] = self.shared.at
+
+    def goes_on(self, level: int, begin: int, end: int) -> int:
+        """Go through the samples `begin` … `end`; how many are done."""
+        if level != self.level:
+            self._take(level)
+        kept = [*self.shared[1:3], self.shared.steps]
+        for side in self.sides:
+            kept += [side.place, side.past, side.thin, side.work.last, side.work.before]
+        self.before = [(values, values.copy()) for values in kept]
+        return follow(
+            *self.sides, self.shared, begin, self.time[:end], self.speed[:end],
+            self.control.tolerance, self.control.max_iterations,
+        )  # fmt: skip
+
+    def goes_back(self) -> None:
+        """Take back what was before the last samples."""
+        for values, before in self.before:
+            values[:] = before
+        for side in self.sides:
+            side.work.u[:] = side.work.last
+            side.work.kept[0] = 0.0
+
+    def _take(self, level: int) -> None:
+        """Films on the points across of another level."""
+        sides = []
+        for side, here, there in zip(self.sides, self.films[self.level], self.films[level]):
+            for name in ("last", "before", "u"):
+                moved = unknowns_on(getattr(here.work, name), here, there)
+                getattr(there.work, name)[:] = moved
+            there.work.kept[0] = 0.0
+            sides.append(side._replace(film=there.film, work=there.work))
+        self.sides, self.level = sides, level
+
+    def unresolved(self, begin: int, end: int, by: int) -> bool:
+        """Whether few points miss, or would miss, the pressure of some of these samples."""
+        some = slice(begin, end)
+        for k, (side, model) in enumerate(zip(self.sides, self.films[self.level])):
+            rows, force = side.rows[some], self.lying.force[some, k]
+            missed = model.unresolved_on_path(rows, force, float(self.typical[k]), by)
+            if (missed | rubs(rows, force)).any():
+                return True
+        return False
+
+    def stops(self, done: int) -> OrbitStopped:
+        """Say at which time the path ends."""
+        k = int(np.argmin([side.rows[done - 1, at.LEAST] for side in self.sides]))
+        ratio = float(np.hypot(*self.sides[k].place[:2]))
+        missed = float(np.linalg.norm(self.shared.missing)), 0.0, self.control.max_iterations
+        return stopped(self.time[done], self.lying.force[done, k], self.speed[done], ratio, missed)
+
+    def told(self) -> SharedPath:
+        """What the loop has found."""
+        models, rows = self.films[LEVELS[0]], [side.rows for side in self.sides]
+        lengths = np.array([[m.bearing.clearance, m.bearing.radius] for m in models])
+
+        def both(*columns: int) -> Array:
+            return np.stack([each[:, columns] for each in rows], axis=1)
+
+        paths = []
+        for k, (model, side) in enumerate(zip(models, self.sides)):
+            values = model.results(rows[k], self.speed * side.states[:, THIN])
+            values |= {"x": rows[k][:, at.X], "y": rows[k][:, at.Y]}
+            force = self.lying.force[:, k]
+            if model.options.contact is not None:
+                values["contact_share"] = contact_share(values["contact_force"], force)
+            values = cooled(side.warmth, side.states, values)
+            given = self.time, force, self.speed, model.bearing.clearance
+            paths.append(orbit_dataset(values, *given))
+        return SharedPath(
+            position=both(at.X, at.Y) * lengths[:, :1],
+            tilt=both(at.TILT_X, at.TILT_Y) * (lengths[:, :1] / lengths[:, 1:]),
+            moment=both(at.MOMENT_X, at.MOMENT_Y) * lengths[:, 1:],
+            paths=paths,
+        )
+
+
+def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature: float) -> Side:
+    """One film, in the units of the loops; coordinates are the positions in clearances."""
+    model, count = models[number], len(lying.tilt)
+    turn = model.bearing.radius / model.bearing.clearance
+    given, lies, turned = np.zeros((count, 4)), np.zeros((4, 4)), np.zeros((4, 4))
+    given[:, 2:] = lying.tilt[:, number] * turn
+    lies[[0, 1], [2 * number, 2 * number + 1]] = 1.0
+    for k, other in enumerate(models):
+        both = slice(2 * k, 2 * k + 2)
+        lies[2:, both] = turn * other.bearing.clearance * lying.by_position[number, :, k]
+        turned[2:, both] = turn * other.bearing.radius * lying.by_moment[number, :, k]
+    felt = lies * model.bearing.clearance / models[0].bearing.clearance
+    if not lying.felt[number]:
+        felt[2:] = 0.0
+    film, contact = model.film, model.options.contact
+    load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
+    if film.rough.size > 0.0 or film.give > 0.0 or film.ring.shaped:
+        load = 0.0
+    rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
+    warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
+    light = lighter(warmth, states, 0) if warmth.on else 1.0
+    return Side(
+        film=film, work=model.work, lies=lies, felt=felt, turned=turned, given=given,
+        bend=np.array(model.lines(count)[:, 2:]),
+        stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
+        place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
+        thin=np.array([states[0, THIN], light]), warmth=warmth, states=states,
+    )  # fmt: skip
+
+
+def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:
+    """The film at the first time, around a shaft that is held at its place."""
+    work, most = side.work, 4 * control.max_iterations
+    line = np.concatenate([side.place[None, 2:], side.bend[:1]], axis=1)
+    work.bend[:], work.u[:], work.kept[0] = side.bend[0], model.cold(), 0.0
+    solve(
+        side.film, work, side.place, 0, 0, _NOW, model.loads(force), line, speed * side.thin[0],
+        control.tolerance, most, np.inf, side.rows[:1], np.zeros((2, 0, 0)), COLD,
+        standing_states(1),
+    )  # fmt: skip
+    if not side.rows[0, at.CONVERGED] > 0.0:
+        missed = tuple(side.rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
+        raise no_start(force[0], speed[0], float(np.hypot(*side.place[:2])), missed)
+    work.kept[0] = 0.0

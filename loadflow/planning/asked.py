@@ -1,0 +1,74 @@
+"""What a probe answers of one case as a scene is switched."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from loadflow.errors import LoadflowError
+from loadflow.planning.effects import switched
+from loadflow.scene.cases import Case
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect
+from loadflow.stages.probes import Answers, Probe
+from loadflow.stages.registry import STAGES
+
+
+@dataclass(frozen=True)
+class Asked:
+    """A probe of a case: the series `inputs` are those of `scene`."""
+
+    probe: Probe
+    scene: Scene
+    case: Case
+    inputs: Mapping[str, Any]
+    other: list[tuple[Any, Any]] = field(default_factory=list)
+
+    def answers(self, one: Scene) -> Answers:
+        """What the probe answers of a scene."""
+        return self.probe.answers(one, self.case, self.reads(one))
+
+    def reads(self, one: Scene) -> Mapping[str, Any]:
+        """What it reads: a shaft that rests on something else lies elsewhere."""
+        if "shaft" not in self.probe.reads or one.shaft == self.scene.shaft:
+            return self.inputs
+        known = next((found for shaft, found in self.other if shaft == one.shaft), None)
+        if known is None:
+            known = STAGES["shaft"].run(one, self.case, dict(self.inputs))
+            self.other.append((one.shaft, known))
+        return {**self.inputs, "shaft": known}
+
+
+def without(asked: Asked, effect: Effect, scene: Scene) -> Answers | str:
+    """What a probe answers without an effect that is on in the scene."""
+    if (mute := effect.muted(scene)) is not None:
+
+        def still(one: Scene) -> Answers:
+            return asked.probe.answers(one, asked.case, mute(asked.reads(one)))
+
+        return tried(still, scene)
+    left = switched(scene, effect, False)
+    return "no such scene" if left is None else tried(asked.answers, left)
+
+
+def tried(answers: Callable[[Scene], Answers], scene: Scene) -> Answers | str:
+    """What a probe answers, or why it does not."""
+    try:
+        found = answers(scene)
+    except LoadflowError as error:
+        return str(error)
+    bad = [f"{bearing}: {what}" for (bearing, what), value in found.items() if np.isnan(value)]
+    return f"no answer for {bad[0]}" if bad else found
+
+
+def changes(with_it: Answers, without: Answers) -> dict[str, float]:
+    """Largest relative change by quantity, over the bearings."""
+    found: dict[str, float] = {}
+    for (bearing, quantity), value in with_it.items():
+        other = without[bearing, quantity]
+        change = 0.0 if other == value else abs(other - value) / max(abs(value), 1e-300)
+        found[quantity] = max(found.get(quantity, 0.0), float(change))
+    return found

@@ -1,0 +1,175 @@
+"""Tilt of a shaft that lies on different sides of the clearances of its journal bearings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from loadflow.journal.shapes import CYLINDER
+from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import floating, floats_in_films
+from loadflow.shaft import Concept
+from loadflow.shaft.beam import BearingSupport
+from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.film_sizes import largest
+from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
+from loadflow.stages.frames import from_film, to_film
+from loadflow.stages.shaft_in_films import move_together
+from loadflow.stages.stage import with_settings
+
+_WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
+"""Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
+
+
+def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, dict[str, Floats]]:
+    """Slope of a shaft in the clearances of its outermost films, and film at mid-plane of each.
+
+    Closed charts say where a film lies under the mean load, and under its largest deviation, which
+    pushes one bearing as it pulls the other. Films in motion lie elsewhere at each moment, but
+    scatter alike: mean, spread and extreme of the slope are those of films at rest within a tenth
+    (5 MW, 12 and 18 m/s).
+
+    Returns
+    -------
+    slope : ndarray, shape (5, n, 3)
+        In the frame of the cube, rad: under the mean load, and pushed either way along y and z.
+    films : dict of ndarray, shape (5, n)
+        Smallest film of each bearing, m; NaN where the shaft stands.
+    """
+    where = dict(zip(concept.bearings, concept.positions))
+    places = {name: _place(at, name, (-1.0) ** k) for k, name in enumerate(names)}
+    first, last = names[0], names[-1]
+    moved = places[last].position - places[first].position
+    along = where[last] - where[first]
+    # what moves along y turns about z, what moves along z about −y
+    turned = np.stack([0.0 * moved[..., 0], -moved[..., 2], moved[..., 1]], axis=-1)
+    return turned / along, {name: places[name].film for name in names}
+
+
+@dataclass(frozen=True)
+class _Place:
+    """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n)."""
+
+    position: Floats
+    film: Floats
+
+
+def _place(at: Situation, name: str, sign: float) -> _Place:
+    own, load = at.scene.journal.at(name), at.bearings[name]
+    held = own.at_temperature(own.heat.inlet_temperature) if own.heat else own
+    size = own.geometry
+    width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
+    bearing = replace(size, shape=CYLINDER, relief=(), width=width)
+    force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
+    force = to_film(force * width / size.width)
+    position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
+    if at.turns.any():
+        some = force[:, at.turns]
+        speed = np.broadcast_to(at.speed[at.turns], some.shape[:2])
+        found = bearing.equilibrium(
+            some.reshape(-1, 2), speed.ravel(), held.lubricant, rung="chart", strict=False
+        )
+        lies = np.asarray(found.eccentricity).reshape(some.shape)
+        position[:, at.turns] = from_film(lies)
+        film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
+    return _Place(position, film)
+
+
+def closed_ends(at: Situation) -> dict[str, float]:
+    """Slope in the clearances × half the width / film at mid-plane: what it closes at one end.
+
+    By film that a shaft floats in, at its largest. The slope is that of `slopes` less the turn of
+    the bores; ``alignment = "mean"`` takes the mean of all points.
+    """
+    found = {}
+    for _, concept, names in floating(at.scene.shaft, at.scene.journal):
+        slope, films = slopes(at, concept, names)
+        for name, film in films.items():
+            own = at.scene.journal.at(name)
+            if own.alignment == "mean":
+                bore = slope[0, at.turns].mean(axis=0) if at.turns.any() else np.zeros(3)
+            else:
+                bore = from_film(own.alignment)
+            away = np.linalg.norm(slope - bore, axis=-1)
+            share = np.nan_to_num(0.5 * own.geometry.width * away / film)
+            found[name] = float(share.max())
+    return found
+
+
+def _indicator(at: Situation) -> Sizes:
+    """What is left of the film at an end, by `closed_ends` x: less by x (1 + x) of that."""
+    found = [
+        {key: float(most * (first + second * most)) for key, (first, second) in _SHARES.items()}
+        for most in closed_ends(at).values()
+    ]
+    return largest(found)
+
+
+_SHARES = {
+    "eccentricity ratio": (0.05, 0.0),
+    "minimum film": (1.0, 1.0),
+    "maximum pressure": (0.15, 0.0),
+    "friction power": (0.04, 0.0),
+}
+"""Changes of the answers over x and over x²; those of a shaft that bends for small x."""
+
+
+def _stated(scene: Scene) -> bool:
+    """Whether a scene says what its shaft rests on, or that films are not those it floats in."""
+    found = floating(scene.shaft, scene.journal)
+    other = {key for key, value in _TOGETHER.items() if getattr(scene.journal, key) != value}
+    stated = any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    return stated or bool(other & scene.journal.model_fields_set)
+
+
+def _switched(scene: Scene, on: bool) -> Scene | None:
+    """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
+
+    None where these are no films that can be.
+    """
+    journal = with_settings(scene, "journal", _TOGETHER) if on else scene
+    if journal is None:
+        return None
+    held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
+    if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
+        return None  # their moment, which no model feeds back, would hold the shaft
+    support = BearingSupport(stiffness="journal", takes_moment=True)
+    changed = {}
+    for kind, concept, films in floating(scene.shaft, scene.journal):
+        if concept.beam is not None and on:
+            supports = (support,) * len(films)
+            changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
+        elif concept.beam is not None:
+            changed[kind] = replace(concept, beam=concept.beam.free_in_films())
+    found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
+    together = all(
+        move_together(found, concept)
+        for _, concept, _ in floating(found.shaft, found.journal)
+        if concept.beam is not None
+    )
+    return found if not on or together else None
+
+
+_TOGETHER = {"tilt": True, "motion": "transient", "rung": "reduced"}
+"""Keys of films that are followed together with the shaft between them."""
+
+
+CLEARANCES = Effect(
+    "tilt in the clearances",
+    model="shaft",
+    keys=("shaft.two_point", "shaft.integrated", "shaft.direct_drive"),
+    is_on=lambda scene: floats_in_films(scene.shaft, scene.journal),
+    switched=_switched,
+    stated=_stated,
+    indicator=_indicator,
+    out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
+    needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
+    'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '
+    "a thrust collar beside them must be self_aligning",
+    concerns=lambda scene: (
+        scene.wants("journal")
+        and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))
+    ),
+    probe="journal",
+)

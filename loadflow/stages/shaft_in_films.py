@@ -1,0 +1,234 @@
+"""A shaft and the films of its two journal bearings, in motion together.
+
+Where films follow the whole series (`journal.motion = "transient"`), the shaft is tilted by where
+it is in both of them at each time, and not by where it would rest: squeeze holds it while loads
+swing. So shaft and films are one system. The shaft stage tells its loads and how it lies, the stage
+of the films what these are; both ask for the same path, which is kept from one to the other.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from loadflow.cube import time_step
+from loadflow.journal import Control
+from loadflow.journal.heat import Heat
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
+from loadflow.journal.models.shared_path import Lying, SharedPath, follow_shared
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.shaft import Concept
+from loadflow.shaft.in_films import ShaftInFilms
+from loadflow.shaft.reactions import films_dataset, shaft_in_films
+from loadflow.stages.bores import bores
+from loadflow.stages.film_of_bearing import follow
+from loadflow.stages.film_past import Past, after_past, past_of
+from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.frames import from_film, to_film
+
+Floats = np.ndarray
+
+STILL = 0.01
+"""Share of the largest speed of a series, below which surfaces touch and no film is asked."""
+
+_CONTROL = Control(tolerance=1e-5)  # 1e-7 moves the tilt by less than 1e-4 of its largest
+
+
+@dataclass(frozen=True)
+class FilmsTogether:
+    """Path of a shaft in its films, at the samples that these take.
+
+    Attributes
+    ----------
+    path : SharedPath
+        Of shaft and films.
+    temperature : tuple of float or None
+        At which the oil of each film is held, K.
+    """
+
+    path: SharedPath
+    temperature: tuple[float | None, ...]
+
+
+def move_together(scene: Scene, concept: Concept) -> bool:
+    """Whether shaft and films of a suspension are followed together.
+
+    All its bearings are two journal bearings whose films the shaft's supports are, with tilt and in
+    motion, by the rung "reduced".
+    """
+    if concept.beam is None or len(concept.bearings) != 2 or not scene.journal.in_motion:
+        return False
+    films = [support.stiffness == "journal" for support in concept.beam.supports]
+    if films != [True, True] or not scene.journal.tilt or scene.journal.rung != "reduced":
+        return False
+    return all(_followable(scene.journal.at(name)) for name in concept.bearings)
+
+
+def _followable(options: Journal) -> bool:
+    """Whether the loop knows the film of a bearing."""
+    film, line = options.film_model, Line(tilt=np.zeros((1, 2)))
+    plain = options.heat is None or isinstance(options.heat, Heat)
+    pads = options.geometry.shape.segments
+    return plain and not pads and why_not("in_motion", film, options.geometry, line) is None
+
+
+def runs(speed: Floats) -> bool:
+    """Whether the shaft turns in all samples, so that films hold it throughout."""
+    return bool(np.all(np.abs(speed) > STILL * np.abs(speed).max()))
+
+
+def shaft_on_films(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> xr.Dataset:
+    """Loads and motion of the shaft at all samples of `loads`, as of `coupled_loads`."""
+    time, force, moment, _ = _series(loads)
+    every, shaft = _every(scene, loads), shaft_in_films(concept, force, moment, tilt=tilt)
+    path = films_together(scene, concept, loads, tilt).path
+    known = time[every]
+
+    def onto(values: Floats) -> Floats:
+        """(4, n) in the cube of (m, 2, 2) in the film."""
+        columns = from_film(values)[..., 1:].reshape(known.size, 4).T
+        return np.stack([np.interp(time, known, column) for column in columns])
+
+    found = np.ones(time.size, dtype=bool)
+    motion = shaft.motion(onto(path.position), onto(path.moment), found, _CONTROL.tolerance or 0.0)
+    about = {"solved": known.size, "interpolation_error": 0.0}
+    return films_dataset(concept, motion, shaft.along).assign_attrs(about)
+
+
+def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> FilmsTogether:
+    """Shaft and films at the samples that films in motion take.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No film to begin with, or a step without an answer.
+    """
+    time, force, moment, speed = _series(loads.isel(time=_every(scene, loads)))
+    asked = [scene.shaft.model_dump_json(), scene.journal.model_dump_json(), concept, tilt]
+    told = repr(asked).encode() + b"".join(part.tobytes() for part in (time, force, moment, speed))
+    key = hashlib.sha256(told).hexdigest()
+    if key not in _KEPT:
+        found = _followed(scene, concept, loads, tilt)
+        _KEPT.clear()
+        _KEPT[key] = found
+    return _KEPT[key]
+
+
+def in_motion(
+    scene: Scene,
+    bearing: str,
+    loads: xr.Dataset,
+    shaft: xr.Dataset,
+    start: Floats | None = None,
+) -> xr.Dataset:
+    """Film of a bearing in motion along `loads`: with the shaft, or around it as it lies.
+
+    Around a shaft that lies as `shaft` says of the bearing it begins at the place `start`, (2,), m.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        No film to begin with, or a step without an answer.
+    """
+    from loadflow.turbines import load_turbine
+
+    speed = loads["speed"].values.astype(float)
+    concept = next((one for one in scene.shaft.concepts if bearing in one.bearings), None)
+    if concept is None or not move_together(scene, concept) or not runs(speed):
+        return follow(scene.journal.at(bearing), loads, shaft, start)
+    both = films_together(scene, concept, loads, load_turbine(scene.turbine.name).rotor.tilt)
+    return both.path.paths[concept.bearings.index(bearing)]
+
+
+_KEPT: dict[str, FilmsTogether] = {}  # the last one alone
+
+
+def _series(loads: xr.Dataset) -> tuple[Floats, Floats, Floats, Floats]:
+    """Time (n,), force and moment of the hub (3, n), speed (n,)."""
+    vectors = (loads[name].transpose("axis", "time") for name in ("hub_force", "hub_moment"))
+    force, moment = (np.ascontiguousarray(values.values.astype(float)) for values in vectors)
+    time, speed = (loads[name].values.astype(float) for name in ("time", "speed"))
+    return time, force, moment, speed
+
+
+def _every(scene: Scene, loads: xr.Dataset) -> slice:
+    return slice(None, None, scene.journal.every(time_step(loads)))
+
+
+def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> FilmsTogether:
+    loads = loads.isel(time=_every(scene, loads))
+    time, force, moment, speed = _series(loads)
+    shaft = shaft_in_films(concept, force, moment, tilt=tilt)
+    bearings = [scene.journal.at(name) for name in concept.bearings]
+    turned = bores(scene)
+    bore = to_film(np.array([turned[name] for name in concept.bearings]))
+    given = _given(shaft, bore, time.size)
+    still = [options.model_copy(update={"tilt": False}) for options in bearings]
+    warm = tuple(
+        mean_temperature(options, given["force"][:, k], speed) for k, options in enumerate(still)
+    )
+    held = [
+        options if kelvin is None else options.at_temperature(kelvin)
+        for options, kelvin in zip(bearings, warm)
+    ]
+    by = _slopes(shaft)
+    control = _CONTROL.limits(tolerance=1e-5, max_iterations=30)
+
+    def path(past: Past) -> SharedPath:
+        series = past.before({"time": time, "speed": speed, **given})
+        lying = Lying(
+            series["force"], series["tilt"], series["bend"], *by, felt=shaft.felt,
+            touching=np.array([options.contact_film for options in bearings]),
+        )  # fmt: skip
+        found = follow_shared(
+            [options.geometry for options in held], [options.film_model for options in held],
+            series["time"], series["speed"], lying, control,
+        )  # fmt: skip
+        after = slice(past.steps, None)
+        parts = (found.position, found.tilt, found.moment)
+        paths = [one.isel(time=after) for one in found.paths]
+        return SharedPath(*(part[after] for part in parts), paths=paths)
+
+    return FilmsTogether(after_past(path, past_of(scene, loads), time), warm)
+
+
+def _given(shaft: ShaftInFilms, bore: Floats, count: int) -> dict[str, Floats]:
+    """Loads, tilt and bend of the shaft in the middle of both films, (n, 2, 2) in their axes.
+
+    The tilt is that against bores which are turned by `bore` (2, 2), rad.
+    """
+    none = np.zeros((4, count))
+    motion = shaft.motion(none, none, np.ones(count, dtype=bool), 0.0)
+    return {
+        "force": _film(shaft.force(none)),
+        "tilt": _film(shaft.tilt(none, none)) - bore,
+        "bend": to_film(motion.curvature.transpose(2, 0, 1)),
+    }
+
+
+def _film(vectors: Floats) -> Floats:
+    """(n, 2, 2) in the axes of the films of (4, n) in the cube."""
+    y, z = vectors.reshape(2, 2, -1).transpose(1, 2, 0)
+    return np.stack([-z, y], axis=-1)
+
+
+def _slopes(shaft: ShaftInFilms) -> tuple[Floats, Floats]:
+    """Tilt by positions and by moments, (film, axis, film, axis), in the axes of the films."""
+    count = shaft.line.equations.free.shape[1]
+    none, found = np.zeros((4, count)), []
+    for which in range(2):
+        columns = []
+        for number in range(4):
+            unit = np.zeros((1, 2, 2))
+            unit[0, number // 2, number % 2] = 1.0
+            cube = from_film(unit)[..., 1:].reshape(4, 1) + none
+            given = (cube, none) if which == 0 else (none, cube)
+            change = _film(shaft.tilt(*given)[:, :1] - shaft.tilt(none, none)[:, :1])[0]
+            columns.append(change)
+        found.append(np.stack(columns, axis=-1).reshape(2, 2, 2, 2))
+    return found[0], found[1]

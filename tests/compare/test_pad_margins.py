@@ -1,0 +1,130 @@
+"""How far loads on thrust collars may grow, and their bands: warm, tilted and in motion."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.journal import row_table
+from loadflow.scene.as_built import AsBuilt
+from loadflow.scene.candidate import Candidate
+from loadflow.scene.friction import Friction
+from loadflow.scene.thrust import Thrust
+from loadflow.stages.thrust import solved
+from loadflow.studies.compare_factor import WIDEST, film_factors, grown, pressure_factor
+from loadflow.studies.compare_pads import value_of
+from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.pad_films import pad_films
+from loadflow.studies.tolerance_bands import cheap_numbers
+
+LANDS = {"pads": 6, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.9, "taper": 1e-4}
+
+
+def collar(**more):
+    data = {"kind": "thrust", "geometry": LANDS, "grid": (8, 4), "heat": {"oil": "mineral-vg-320"}}
+    return Thrust(bearings={"N2": data | more}, rung="curve", motion="transient", tilt=True)
+
+
+def series(count=40):
+    time = np.arange(count) * 0.1
+    force = np.zeros((count, 3))
+    force[:, 0] = 4e5 + 2e5 * np.sin(2.0 * time)
+    tilt = np.zeros((count, 3))
+    tilt[:, 1] = 1e-5 * force[:, 0] / 4e5
+    axes = ("sample", "axis")
+    return xr.Dataset(
+        {
+            "force": (axes, force), "moment": (axes, 0.0 * force), "tilt": (axes, tilt),
+            "time": ("sample", time), "speed": ("sample", np.full(count, 1.2)),
+            "weight": ("sample", np.full(count, 1.0 / count)),
+            "running": ("sample", np.ones(count, bool)),
+        },
+        {"axis": ["x", "y", "z"]},
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("moving", [True, False])
+def test_films_at_the_loads_of_a_run_are_those_of_the_run(moving):
+    thrust, samples = collar(), series()
+    bearing = thrust.bearings["N2"]
+    ran = solved(bearing, "N2", samples, thrust.rung, moving)
+    found = pad_films(bearing, samples, moving)
+    for name in ("minimum_film", "maximum_pressure", "friction_power"):
+        assert getattr(found, name) == pytest.approx(ran[name].values, rel=1e-12)
+
+
+def test_a_collar_with_more_load_is_thinner_than_motion_and_tilt_left_out_would_say():
+    """Along the series, tilted: what decides is not the film of an aligned collar at rest."""
+    bearing, samples = collar().bearings["N2"], series()
+    every = np.ones(samples.sizes["sample"], bool)
+
+    def film(load, some=samples, moving=True):
+        return value_of(bearing, some, every, moving, "minimum_film", load, 1.0)
+
+    aligned = samples.drop_vars("tilt")
+    assert film(1.5) < film(1.0)
+    assert film(1.5) < 0.95 * film(1.5, aligned, moving=False)
+    thicker = value_of(bearing, samples, every, True, "minimum_film", 1.5, 1.2)
+    assert thicker > film(1.5)
+
+
+def test_the_tilt_of_a_shaft_grows_with_its_loads():
+    both = grown(series(), 2.0)
+    assert both["tilt"].values == pytest.approx(2.0 * series()["tilt"].values)
+    assert both["force"].values == pytest.approx(2.0 * series()["force"].values)
+
+
+def test_a_film_that_is_lost_under_more_load_counts_as_none():
+    """Samples without an answer, such as those of a collar that tilts into its pads."""
+    bearing, samples = collar().bearings["N2"], series()
+    every = np.ones(samples.sizes["sample"], bool)
+    assert value_of(bearing, samples, every, False, "minimum_film", 14.0, 1.0) == 0.0
+    assert math.isinf(value_of(bearing, samples, every, False, "maximum_pressure", 14.0, 1.0))
+
+
+@pytest.mark.parametrize("power", [0.3, 0.5, 1.0, 2.0])
+@pytest.mark.parametrize("reserve", [0.5, 0.95, 1.0, 1.3, 4.0])
+def test_factors_to_a_limit_are_those_of_a_power_of_the_load_in_few_steps(power, reserve):
+    asked = []
+
+    def film(load, oil):
+        asked.append(load)
+        return (load / oil) ** -power
+
+    exact = min(max(reserve ** (1 / power), 1 / WIDEST), WIDEST)
+    load, oil = film_factors(film, 1 / reserve)
+    assert [load, 1 / oil] == pytest.approx([exact, exact], rel=3e-3)
+    assert len(asked) <= 12
+    assert pressure_factor(lambda f, oil: (f / oil) ** power, reserve) == pytest.approx(
+        exact, rel=3e-3
+    )
+
+
+def test_a_factor_ends_where_films_end():
+    """Between the last load that has an answer, and the first that has none."""
+    found = pressure_factor(lambda f, oil: f if f < 1.7 else math.nan, 7.0)
+    assert 1.695 < found < 1.7
+    assert film_factors(lambda f, oil: math.nan, 1.0)[0] == pytest.approx(1 / WIDEST)
+
+
+def test_all_ends_of_a_warm_collar_share_the_tables_of_the_stated_one():
+    """Each table takes seconds: one for both rows, and one for all tolerances."""
+    samples = series(6).assign(
+        load_factor=("sample", np.ones(6)), ultimate=("sample", np.ones(6, bool))
+    )
+    tree = xr.DataTree.from_dict({"N2": samples})
+    tree.attrs["seconds"] = 3e7
+    built = Built(Candidate(thrust=collar(play=4.2e-4)), Friction(), tree)  # tables of its own
+    before = row_table._nodes_of.cache_info().misses
+    stated = cheap_numbers(built)
+    ends = {
+        tolerance.name: [cheap_numbers(end)["minimum_film"] for end in tolerance.ends]
+        for tolerance in tolerances_of(built, AsBuilt())
+    }
+    assert row_table._nodes_of.cache_info().misses == before + 1
+    thin, thick = ends["oil grade"]
+    assert thin < stated["minimum_film"] < thick
+    cold, warm = ends["oil temperature"]
+    assert warm < stated["minimum_film"] < cold
+    assert set(ends) == {"clearance", "oil grade", "oil temperature", "roughness"}

@@ -1,0 +1,198 @@
+"""A shaft in two journal films: how it lies in them, and both in motion together."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.journal import Control
+from loadflow.scene.scene import Scene, make_scene
+from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint
+from loadflow.shaft import bearing_loads as suspended
+from loadflow.shaft.reactions import shaft_in_films
+from loadflow.stages import journal, shaft
+from loadflow.stages.film_support import film_model
+from loadflow.stages.frames import to_film
+from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.turbines import load_turbine
+
+STEPS, STEP = 600, 0.05
+TILT = load_turbine("nrel-5mw").rotor.tilt
+
+
+def scene_of(supports: list[dict] | None = None, modulus: float = 2.1e11, **film) -> Scene:
+    """Two journal bearings with more clearance than a shaft fills, and a shaft in them."""
+    own = {"stiffness": "journal", "takes_moment": True}
+    beam = {"sections": [{"outer_diameter": 2.0, "inner_diameter": 1.0}]}
+    beam |= {"supports": supports or [own, own], "youngs_modulus": modulus}
+    return make_scene(
+        {
+            "name": "films",
+            "results": ["journal.film"],
+            "shaft": {"two_point": {"span": 5.0, "beam": beam}},
+            "journal": {
+                "geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3},
+                "lubricant": {"viscosity": 0.3},
+                "tilt": True,
+                "motion": "transient",
+                "rung": "reduced",
+                "grid": (40, 20),
+            }
+            | film,
+        }
+    )
+
+
+def loads_of(swing: float = 0.3, steps: int = STEPS) -> xr.Dataset:
+    """Loads of a hub: a mean, and a `swing` at three times the speed of the shaft."""
+    time, speed = STEP * np.arange(steps), np.full(steps, 1.2)
+    phase, lasting = 3.0 * 1.2 * time, np.ones(steps)
+    force = np.stack([5e5 * lasting, 1e5 * lasting, -1.1e6 * lasting])
+    moment = np.stack(
+        [4e6 * lasting, 2e6 * (0.3 + swing * np.sin(phase)), 2e6 * swing * np.cos(phase)]
+    )
+    return xr.Dataset(
+        {
+            "speed": ("time", speed),
+            "hub_force": (("axis", "time"), force),
+            "hub_moment": (("axis", "time"), moment),
+        },
+        {"time": time, "axis": ["x", "y", "z"]},
+    )
+
+
+@pytest.fixture(scope="module")
+def moved() -> tuple[Scene, xr.Dataset, xr.Dataset]:
+    scene, loads = scene_of(), loads_of()
+    return scene, loads, shaft.bearing_loads(scene, None, {"loads": loads})
+
+
+def test_a_shaft_on_springs_lies_as_its_reactions_say():
+    supports = (
+        BearingSupport(radial=3e9, takes_moment=True, tilt=2e8, housing_vertical=8e9),
+        BearingSupport(radial=2e9, takes_moment=True, tilt=3e8, housing_tilt=9e8),
+    )
+    concept = TwoPoint(beam=Beam((ShaftSection(1.0, 0.4),), supports))
+    rng = np.random.default_rng(1)
+    force, moment = rng.normal(size=(3, 5)) * 1e6, rng.normal(size=(3, 5)) * 3e6
+    known = suspended(concept, force, moment, tilt=0.08)
+    lying = shaft_in_films(concept, force, moment, tilt=0.08)
+    reactions, moments = (known[name].values[:, 1:] for name in ("force", "moment"))
+    stiff = np.array([3e9, 2e9])[:, None, None]
+    at = (reactions / stiff).reshape(4, 5), moments.reshape(4, 5)
+    assert np.allclose(lying.force(at[1]), reactions.reshape(4, 5), rtol=1e-11)
+    against = (known["tilt"] - known["bore_tilt"]).values[:, 1:].reshape(4, 5)
+    assert np.allclose(lying.tilt(*at), against, rtol=1e-10, atol=1e-16)
+    motion = lying.motion(*at, np.ones(5, dtype=bool), 0.0)
+    for name in ("moment", "displacement", "tilt", "curvature", "bore_tilt"):
+        assert np.allclose(getattr(motion, name), known[name].values, rtol=1e-9, atol=1e-15), name
+
+
+def test_a_shaft_lies_in_films_of_two_bearings_alone():
+    concept = MomentBearing(beam=Beam())
+    with pytest.raises(InputError, match="two bearings"):
+        shaft_in_films(concept, np.zeros((3, 1)), np.zeros((3, 1)))
+
+
+def test_a_stiff_shaft_is_tilted_by_where_it_is_in_both_films():
+    scene, loads = scene_of(modulus=2.1e14), loads_of()
+    found = shaft.bearing_loads(scene, None, {"loads": loads})
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    slope = (both.position[:, 1] - both.position[:, 0]) / 5.0
+    tilt = to_film(found["tilt"].transpose("time", "bearing", "axis").values)
+    bent = np.abs(tilt[:, 0, ::-1] * [1.0, -1.0] - slope).max()
+    assert np.abs(slope).max() > 5e-5
+    assert bent < 1e-3 * np.abs(slope).max()
+
+
+def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):
+    """Under the loads that the shaft stage tells, around the shaft as it tells it."""
+    scene, loads, found = moved
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    time, speed = loads["time"].values, loads["speed"].values
+    for k, name in enumerate(("N", "N2")):
+        options = scene.journal.at(name)
+        force = to_film(found["force"].sel(bearing=name).T.values.astype(float))
+        tilt = to_film(found["tilt"].sel(bearing=name).T.values.astype(float))
+        bend = to_film(found["curvature"].sel(bearing=name).T.values.astype(float))
+        alone = options.geometry.orbit(
+            time, force, speed, options.film_model, tilt=tilt, bend=bend,
+            start=both.position[0, k], control=Control(tolerance=1e-8),
+        )  # fmt: skip
+        late = slice(5 * STEPS // 6, None)  # the past of one has gone from the other by then
+        off = np.abs(alone["eccentricity"].values - both.position[:, k])[late].max()
+        assert off < 2e-3 * options.geometry.clearance
+        ours = both.paths[k]["minimum_film"].values[late]
+        assert np.allclose(alone["minimum_film"].values[late], ours, rtol=5e-3)
+
+
+def test_forces_and_moments_balance(moved):
+    _, loads, found = moved
+    first, second = found["position"].values
+    rigid = suspended(TwoPoint(span=5.0), loads["hub_force"], loads["hub_moment"], tilt=TILT)
+    total = rigid["force"].sum("bearing").values
+    assert np.allclose(found["force"].sum("bearing").values[1:], total[1:], rtol=1e-5)
+    for data in (found, rigid):
+        force, own = data["force"].values, data["moment"].values.sum(axis=0)
+        about_y = -first * force[0, 2] - second * force[1, 2] + own[1]
+        about_z = first * force[0, 1] + second * force[1, 1] + own[2]
+        if data is found:
+            ours = about_y, about_z
+    assert np.abs(found["moment"].values[:, 1:]).max() > 1e4
+    assert np.allclose(ours, (about_y, about_z), atol=1e-5 * np.abs(about_y).max())
+
+
+def test_under_a_load_that_stays_the_shaft_comes_to_rest_as_with_films_at_rest():
+    scene, loads = scene_of(), loads_of(swing=0.0)
+    found = shaft.bearing_loads(scene, None, {"loads": loads}).isel(time=-1)
+    concept, one = scene.shaft.concepts[0], loads.isel(time=[0])
+    models = {
+        name: film_model(scene.journal.at(name), one["speed"].values, tilting=True)
+        for name in concept.bearings
+    }
+    rest = suspended(concept, one["hub_force"], one["hub_moment"], tilt=TILT, models=models)
+    rest = rest.isel(time=0)
+    for name, share in (("tilt", 5e-3), ("displacement", 5e-3), ("force", 1e-3)):
+        off = np.abs(found[name] - rest[name]).max() / np.abs(rest[name]).max()
+        assert off < share, name
+
+
+def test_films_of_the_run_are_those_that_tilt_the_shaft(moved):
+    scene, loads, found = moved
+    told = journal.orbit(scene, _Case(), {"loads": loads, "shaft": found})
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    for k, name in enumerate(("N", "N2")):
+        ours = told[name]["eccentricity"].values
+        assert np.array_equal(ours, both.position[:, k])
+        assert np.allclose(told[name]["tilt"].values, both.tilt[:, k])
+
+
+def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches():
+    """A slope beyond the clearance: surfaces touch at an end, the gap stays open."""
+    wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3}
+    scene = scene_of(geometry=wide, lubricant={"viscosity": 0.03})
+    loads = loads_of(swing=2.5)
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    least = min(float(path["minimum_film"].min()) for path in both.paths)
+    assert 0.0 < least < scene.journal.contact_film
+
+
+def test_they_move_together_where_both_bearings_are_films_in_motion():
+    own, rigid = {"stiffness": "journal", "takes_moment": True}, {"takes_moment": True}
+    concept = scene_of().shaft.concepts[0]
+    assert move_together(scene_of(), concept)
+    mixed = scene_of([own, rigid])
+    assert not move_together(mixed, mixed.shaft.concepts[0])
+    assert not move_together(scene_of(motion="quasi-static"), concept)
+    assert not move_together(scene_of(rung="grid"), concept)
+    assert not move_together(scene_of(), replace(concept, beam=None))
+
+
+class _Case:
+    """A case that runs."""
+
+    dlc, parked, file = "1.1", False, ""

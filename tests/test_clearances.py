@@ -1,0 +1,169 @@
+"""A shaft tilts in the clearances of its journal bearings: estimated, counted, and taken back."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from loadflow.errors import InputError
+from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import Case, list_cases
+from loadflow.scene.scene import make_scene
+from loadflow.scene.shaft_place import floating
+from loadflow.stages import bores
+from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
+from loadflow.stages.effects.film import TILT
+from loadflow.stages.effects.situation import situation
+from loadflow.stages.frames import from_film
+from loadflow.stages.shaft import bearing_loads
+
+FLOATS = [{"stiffness": "journal"}, {"stiffness": "journal"}]
+
+
+def scene_of(supports=(), beam=True, loads=None, **journal):
+    sections = [{"outer_diameter": 3.0, "inner_diameter": 1.5}]
+    stated = {"beam": {"sections": sections, "supports": list(supports)}} if beam else {}
+    film = {"tilt": True, "geometry": {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}}
+    return make_scene(
+        {
+            "name": "floats",
+            "results": ["journal.film"],
+            "loads": {"wind_speeds": [8.0, 12.0], "seeds": 1} | (loads or {}),
+            "shaft": {"two_point": stated},
+            "journal": film | journal,
+        }
+    )
+
+
+def estimated(scene):
+    return situation(scene, list_cases(scene))
+
+
+def at_usual_loads(scene):
+    """The shaft stage under the loads that bores are aligned at, and the weight of each."""
+    usual = bores.usual_loads(scene)
+    series = xr.Dataset(
+        {
+            "hub_force": (("axis", "time"), usual.force),
+            "hub_moment": (("axis", "time"), usual.moment),
+            "speed": ("time", usual.speed),
+        },
+        {"axis": ["x", "y", "z"], "time": np.arange(float(usual.speed.size))},
+    )
+    return bearing_loads(scene, Case("1.1", 12.0, 1), {"loads": series}), usual
+
+
+def test_closed_charts_have_the_slope_of_solved_films():
+    """In size, by a third; charts know no pressure beside the bearing, which turns the place."""
+    scene = scene_of(FLOATS)
+    at = estimated(scene)
+    ((_, concept, names),) = floating(scene.shaft, scene.journal)
+    slope, films = slopes(at, concept, names)
+    assert all((film > 0).all() for film in films.values())
+    pushed = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
+    for way, estimate in zip(pushed, np.linalg.norm(slope, axis=-1)):
+        forces = [
+            at.bearings[name].force + sign * way * at.bearings[name].swing[:, None]
+            for sign, name in zip((1.0, -1.0), names)
+        ]
+        loads = xr.Dataset({"force": (("bearing", "time", "axis"), forces)}, {"bearing": names})
+        solved = bores.slope_in_clearances(scene, concept, names, loads, at.speed)
+        np.testing.assert_allclose(np.linalg.norm(solved, axis=-1), estimate, rtol=0.35, atol=5e-5)
+
+
+def test_what_a_slope_closes_grows_with_clearance_and_with_bores_that_are_turned_away():
+    def most(clearance=1e-3, **journal):
+        film = {"diameter": 3.0, "width": 2.25, "relative_clearance": clearance}
+        return closed_ends(estimated(scene_of(geometry=film, **journal)))["N"]
+
+    assert most(5e-4) < most() < most(alignment=[0.0, 3e-4])
+
+
+def test_a_plan_counts_the_tilt_in_the_clearances_until_films_are_fed_back():
+    rigid, floats = (scene_of(part, motion="quasi-static") for part in ([], FLOATS))
+    left, counted = make_plan(rigid), make_plan(floats)
+    assert left.errors["journal.film"]["minimum film"] > 1.0
+    assert not left.accurate
+    assert any(CLEARANCES.name in said for said in left.shortfalls)
+    assert CLEARANCES.name in left.left_out
+    assert CLEARANCES.name not in counted.left_out
+    assert counted.errors["journal.film"]["minimum film"] < 0.5
+    assert not any(CLEARANCES.name in said for said in counted.shortfalls)
+
+
+def test_a_plan_feeds_films_back_where_the_accuracy_asks_for_it():
+    scene = scene_of()
+    plan = make_plan(scene)
+    assert CLEARANCES.is_on(plan.scene)
+    assert plan.scene.journal.tilt
+    assert plan.accurate
+    rough = make_plan(scene.model_copy(update={"accuracy": 1e6}))
+    assert not CLEARANCES.is_on(rough.scene)
+
+
+def test_it_is_the_scene_s_that_states_supports_and_needs_two_films_on_a_beam():
+    assert CLEARANCES.is_open(scene_of())
+    assert not CLEARANCES.is_open(scene_of(FLOATS))
+    assert CLEARANCES.concerns(scene_of())
+    assert not CLEARANCES.concerns(scene_of(beam=False))
+    assert not CLEARANCES.concerns(scene_of(bearings=["N"]))
+    assert not CLEARANCES.is_on(scene_of([*FLOATS[:1], {}]))
+    held = CLEARANCES.switched(scene_of(FLOATS), False)
+    assert not CLEARANCES.is_on(held)
+
+
+def test_the_tilt_of_a_shaft_on_films_is_that_in_their_clearances():
+    """So leaving tilt out of the films leaves all of it out."""
+    bent, floats = (TILT.indicator(estimated(scene_of(part))) for part in ([], FLOATS))
+    assert floats["minimum film"] > 2 * bent["minimum film"]
+
+
+@pytest.mark.parametrize("supports", [[], FLOATS])
+def test_bores_aligned_as_built_take_the_mean_tilt_to_zero(supports):
+    scene = scene_of(supports, alignment="mean")
+    found, usual = at_usual_loads(scene)
+    for name in scene.journal.bearings:
+        tilt = found["tilt"].sel(bearing=name).transpose("time", "axis").values
+        mean = np.average(tilt, axis=0, weights=usual.weight)
+        turned = found["alignment"].sel(bearing=name).values
+        assert np.linalg.norm(turned) > 5e-7
+        np.testing.assert_allclose(turned, mean, atol=0.02 * np.linalg.norm(mean))
+
+
+def test_a_bore_is_turned_as_stated_or_as_the_shaft_lies():
+    stated = scene_of(alignment=[1e-4, -2e-5])
+    assert {name: turn.tolist() for name, turn in bores.bores(stated).items()} == {
+        name: from_film([1e-4, -2e-5]).tolist() for name in ("N", "N2")
+    }
+    assert "alignment" not in at_usual_loads(stated)[0]
+    one = scene_of(own={"N2": {"alignment": "mean"}})
+    assert not np.any(bores.bores(one)["N"])
+    assert np.any(bores.bores(one)["N2"])
+
+
+def test_bores_are_those_of_all_load_cases_in_every_process():
+    scene = scene_of(FLOATS, alignment="mean")
+    other = scene_of(FLOATS, alignment="mean", loads={"wind_speeds": [8.0, 12.0]})
+    ours = {name: turn.tolist() for name, turn in bores.bores(other).items()}
+    bores._KNOWN.clear()
+    assert ours == {name: turn.tolist() for name, turn in bores.bores(scene).items()}
+    code = (
+        "import json, sys; from loadflow.scene.scene import Scene\n"
+        "from loadflow.stages import bores\n"
+        "scene = Scene.model_validate_json(sys.stdin.read())\n"
+        "print(json.dumps({name: turn.tolist() for name, turn in bores.bores(scene).items()}))"
+    )
+    told = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", code],
+        input=scene.model_dump_json(), capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert json.loads(told.stdout) == ours
+
+
+@pytest.mark.parametrize("word", ["median", [1e-4], "0.0"])
+def test_another_word_for_the_alignment_is_refused_by_its_name(word):
+    with pytest.raises(InputError, match="alignment"):
+        scene_of(alignment=word)
