@@ -205,3 +205,12 @@ def supplied(units: DiscreteFilm, flows: Array, pressure: Array, between: Array)
         "groove_pressure": pressure,
         "starved": np.any(lack > 1e-9 * units.scale, axis=1),
     }
+
+
+def falls_dry(units: DiscreteFilm, row: Array) -> bool:
+    """Whether a groove of a film, whose `row` is (flows, pressures), would have to rupture.
+
+    Only laws with a fill can follow one whose feed gives less than the film draws.
+    """
+    pressure = row[units.pockets.count :][units.pockets.free]
+    return not units.law.keeps_fill and bool(np.any(pressure < units.law.floor))
