@@ -23,7 +23,7 @@ from loadflow.journal.models.model import Steps, Verb, why_not
 from loadflow.journal.relief import Crown
 from loadflow.journal.shapes import Arc, Lobes, TiltingPads
 from loadflow.journal.shells import LocalShell, ThickShell
-from loadflow.journal.supply import Groove, Supply
+from loadflow.journal.supply import Capillary, Groove, Supply
 from loadflow.journal.turbulence import Turbulence
 from loadflow.tribology.asperities import AsperityContact
 
@@ -66,6 +66,7 @@ _LAWS = {
     for name, law in LAWS.items()
 }
 _GROOVE = Groove(1.57, arc=0.3, length=0.05, pressure=2e5)
+_FED = Groove(1.57, arc=0.3, length=0.05, pressure=4e5, restrictor=Capillary(1.5e-3, 0.1))
 _ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 
 PARTS: dict[str, Part] = _LAWS | {
@@ -74,6 +75,7 @@ PARTS: dict[str, Part] = _LAWS | {
     "tilting pads": Part("bore", bearing={"shape": TiltingPads(4, 1.2)}),
     "crown": Part("bore", bearing={"relief": (Crown(1e-5, 0.02),)}),
     "supply": Part("supply", {"supply": Supply((_GROOVE,))}),
+    "supply by a capillary": Part("supply", {"supply": Supply((_FED,))}),
     "tilt and bend": Part("line", line={"tilt": (1e-5, 2e-5), "bend": (1e-5, 0.0)}),
     "moment": Part("line", line={"moment": (2.0, 3.0)}),
     "local shell": Part("shell", {"shell": LocalShell(1e-12)}),

@@ -161,7 +161,7 @@ THICK = {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}
             film.SUPPLY,
             {"grooves": [GROOVE | {"arc": 0.3}]},
             CIRCLE,
-            "rectangular ones of given pressure",
+            "rectangular ones, each on one segment",
         ),
         (film.SHELL, {"kind": "local", "compliance": 1e-13}, THICK, "a local shell"),
     ],

@@ -8,9 +8,12 @@ from typing import Annotated, Literal
 
 import numpy as np
 from annotated_types import Ge, Gt, MinLen
+from numpy.typing import NDArray
 
 from loadflow.journal.lubricant import Lubricant
 from loadflow.numerics.fields import require
+
+Array = NDArray[np.float64]
 
 _TURN = 6.283185307179586
 
@@ -26,9 +29,15 @@ class _Restrictor:
         """Flow that it keeps whatever the pressure, m³/s; None: the flow follows."""
         return None
 
+    def drops(self, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that is lost over the flow, Pa s/m³, and over its square, Pa s²/m⁶."""
+        return 0.0, 0.0
+
     def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
         """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
-        return 0.0, 0.0
+        linear, quadratic = self.drops(lubricant)
+        size = abs(flow)
+        return (linear + quadratic * size) * flow, linear + 2 * quadratic * size
 
 
 @dataclass(frozen=True)
@@ -55,10 +64,9 @@ class Capillary(_Restrictor):
         require(self.diameter > 0, "diameter", self.diameter, "must be > 0 m")
         require(self.length > 0, "length", self.length, "must be > 0 m")
 
-    def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
-        """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
-        slope = 128 * lubricant.viscosity * self.length / (np.pi * self.diameter**4)
-        return slope * flow, slope
+    def drops(self, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that is lost over the flow, Pa s/m³, and over its square, which loses none."""
+        return 128 * lubricant.viscosity * self.length / (np.pi * self.diameter**4), 0.0
 
 
 @dataclass(frozen=True)
@@ -86,11 +94,10 @@ class Orifice(_Restrictor):
         alpha = self.discharge_coefficient
         require(alpha > 0, "discharge_coefficient", alpha, "> 0")
 
-    def pressure_drop(self, flow: float, lubricant: Lubricant) -> tuple[float, float]:
-        """Pressure that `flow` (m³/s) loses, Pa, and its slope."""
+    def drops(self, lubricant: Lubricant) -> tuple[float, float]:
+        """Pressure that is lost over the flow, which is none, and over its square, Pa s²/m⁶."""
         area = self.discharge_coefficient * 0.25 * np.pi * self.diameter**2
-        factor = 0.5 * lubricant.density / area**2
-        return factor * flow * abs(flow), 2 * factor * abs(flow)
+        return 0.0, 0.5 * lubricant.density / area**2
 
 
 @dataclass(frozen=True)
@@ -229,13 +236,18 @@ class Pump:
 
     def at(self, flow: float) -> tuple[float, float]:
         """Pressure at `flow` (m³/s), Pa, and its slope."""
-        if len(self.flow) == 1:
-            return self.pressure[0], 0.0
-        points = np.array(self.flow)
-        part = int(np.clip(np.searchsorted(points, flow) - 1, 0, points.size - 2))
-        rise = self.pressure[part + 1] - self.pressure[part]
-        slope = float(rise / (points[part + 1] - points[part]))
-        return float(self.pressure[part] + slope * (flow - points[part])), slope
+        return at_pump(np.array(self.flow), np.array(self.pressure), flow)
+
+
+def at_pump(flows: Array, pressures: Array, flow: float) -> tuple[float, float]:
+    """Pressure of a curve `flows`, `pressures` (n,) at a `flow`, and its slope; compiled, too."""
+    if flows.size == 1:
+        return pressures[0], 0.0
+    part = 0
+    while part < flows.size - 2 and flow > flows[part + 1]:
+        part += 1
+    slope = (pressures[part + 1] - pressures[part]) / (flows[part + 1] - flows[part])
+    return pressures[part] + slope * (flow - flows[part]), slope
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,80 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.supply import Supply
+from loadflow.journal.supply import Supply, at_pump
 
 Array = NDArray[np.float64]
+
+
+class FeedTable(NamedTuple):
+    """What feeds the m free grooves, as numbers.
+
+    Attributes
+    ----------
+    drops : array (m, 2)
+        Pressure that their restrictors lose over the flow, Pa s/m³, and over its square, Pa s²/m⁶.
+    given : array (m,)
+        Flow that is kept, m³/s; 0: none is.
+    source : array (m,)
+        Pressure before the restrictors, Pa, where there is no pump.
+    flows, pressures : array (n,)
+        Curve of the pump, m³/s and Pa; n = 0: there is none.
+    line : array (2,)
+        As `drops`, of the line behind it.
+    """
+
+    drops: Array
+    given: Array
+    source: Array
+    flows: Array
+    pressures: Array
+    line: Array
+
+
+def mismatch_of(
+    table: Any,
+    curve: Any,
+    pressure: Array,
+    flow: Array,
+    scale: float,
+    missing: Array,
+    by_pressure: Array,
+    by_flow: Array,
+) -> None:
+    """Fill what `Feed.mismatch` returns; compiled, too.
+
+    `table` is a `FeedTable`, `curve` is `at_pump`.
+    """
+    count, total, source, slope = table.given.size, 0.0, 0.0, 0.0
+    for row in range(count):
+        total += flow[row]
+    if table.flows.size > 0:
+        source, slope = curve(table.flows, table.pressures, total)
+        linear, quadratic = table.line[0], table.line[1] * abs(total)
+        source -= (linear + quadratic) * total
+        slope -= linear + 2.0 * quadratic
+    for row in range(count):
+        for other in range(count):
+            by_flow[row, other] = 0.0
+        if table.given[row] > 0.0:
+            missing[row] = scale * (flow[row] / table.given[row] - 1.0)
+            by_pressure[row] = 0.0
+            by_flow[row, row] = scale / table.given[row]
+            continue
+        linear, quadratic = table.drops[row, 0], table.drops[row, 1] * abs(flow[row])
+        before = source if table.flows.size > 0 else table.source[row]
+        missing[row] = pressure[row] - before + (linear + quadratic) * flow[row]
+        by_pressure[row] = 1.0
+        for other in range(count):
+            by_flow[row, other] = -slope
+        by_flow[row, row] += linear + 2.0 * quadratic
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,36 +146,26 @@ class Feed:
             Its derivative by all flows.
         """
         count = flow.size
-        missing, by_pressure = np.empty(count), np.ones(count)
-        by_flow = np.zeros((count, count))
-        source, slope = self._source(float(flow.sum()))
-        for row, number in enumerate(self.free):
-            groove = self.supply.grooves[number]
-            restrictor, drop, rise = groove.restrictor, 0.0, 0.0
-            if restrictor is not None:
-                given = restrictor.given_flow
-                if given is not None:
-                    missing[row] = scale * (flow[row] / given - 1.0)
-                    by_pressure[row] = 0.0
-                    by_flow[row, row] = scale / given
-                    continue
-                drop, rise = restrictor.pressure_drop(float(flow[row]), self.lubricant)
-            before = groove.pressure if source is None else source
-            missing[row] = pressure[row] - before + drop
-            by_flow[row] = -slope
-            by_flow[row, row] += rise
+        missing, by_pressure, by_flow = np.empty(count), np.empty(count), np.empty((count, count))
+        mismatch_of(self.table, at_pump, pressure, flow, scale, missing, by_pressure, by_flow)
         return missing, by_pressure, by_flow
 
-    def _source(self, flow: float) -> tuple[float | None, float]:
-        """Pressure before the restrictors and its slope over all flow; None without a pump."""
+    @cached_property
+    def table(self) -> FeedTable:
+        """What feeds the free grooves, as numbers."""
+        grooves = [self.supply.grooves[number] for number in self.free]
+        parts = [groove.restrictor for groove in grooves]
+        drops = [(0.0, 0.0) if one is None else one.drops(self.lubricant) for one in parts]
         pump = self.supply.pump
-        if pump is None:
-            return None, 0.0
-        pressure, slope = pump.at(flow)
-        if pump.line is None:
-            return pressure, slope
-        drop, rise = pump.line.pressure_drop(flow, self.lubricant)
-        return pressure - drop, slope - rise
+        line = None if pump is None else pump.line
+        return FeedTable(
+            drops=np.array(drops, dtype=float).reshape(-1, 2),
+            given=np.array([(0.0 if one is None else one.given_flow) or 0.0 for one in parts]),
+            source=np.array([groove.pressure for groove in grooves], dtype=float),
+            flows=np.array(() if pump is None else pump.flow, dtype=float),
+            pressures=np.array(() if pump is None else pump.pressure, dtype=float),
+            line=np.array((0.0, 0.0) if line is None else line.drops(self.lubricant)),
+        )
 
     def power(self, pressure: Array, flow: Array) -> float:
         """Power that lifts the oil from tank to supply pressure, net of what flows back, W.

@@ -13,6 +13,7 @@ from loadflow.journal.film._kernels import apply_law
 from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
+from loadflow.journal.models._full_kernels import keep_full
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
 from loadflow.numerics.lanes import LANES, put, take
@@ -26,6 +27,7 @@ _FAR = 8.5  # film parameter above which the mean gap is that of the mean planes
 def place(film, work, q):
     """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
+    keep_full(film, work)
     nx, wide = work.u.shape
     z = film.places.z
     for k in range(z.size):

@@ -141,10 +141,10 @@ def slopes_of_balance(film, work, wedge, rate, size):
                     put(columns, 3 * block + here, take(columns, 3 * block + here) - y * z_at)
                     put(columns, 4 * block + here, take(columns, 4 * block + here) + x * z_at)
             before, c_before, s_before = after, c, s
-    if ring.shaped:
-        _hold_grooves(film, columns, 1, 5)
     if film.held.on:
         hold_points(film, work, 1, 1 + size, rate)
+    if ring.shaped:
+        _hold_grooves(film, columns, 1, 5)
 
 
 @once

@@ -43,7 +43,14 @@ from loadflow.journal.models._reduced_loops import (
     two_steps,
 )
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import lay_at, leaves_room, longer_step
+from loadflow.journal.models._supply_kernels import (
+    answers_of_grooves,
+    displaced_by,
+    follow_grooves,
+    unfed,
+)
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 from loadflow.numerics.references import refer
@@ -52,28 +59,6 @@ KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
 MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
 ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
-
-
-@once
-def solve_system(system, size):
-    """Solve the linear `system` (size, size + 1) in place with pivots; False if it is singular."""
-    for j in range(size):
-        best = j
-        for i in range(j + 1, size):
-            if abs(system[i, j]) > abs(system[best, j]):
-                best = i
-        if not abs(system[best, j]) > 0.0:
-            return False
-        for k in range(size + 1):
-            system[j, k], system[best, k] = system[best, k], system[j, k]
-        for i in range(size):
-            if i != j:
-                factor = system[i, j] / system[j, j]
-                for k in range(j, size + 1):
-                    system[i, k] -= factor * system[j, k]
-    for j in range(size):
-        system[j, size] /= system[j, j]
-    return True
 
 
 @once
@@ -222,7 +207,7 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     spent, last = 0, np.inf
     place(film, work, q)
     while True:
-        residual = balance(film, work, wedge, rate) / flux
+        residual = max(balance(film, work, wedge, rate) / flux, unfed(film, work))
         touch(film, work, q)
         missing = 0.0
         for a in range(size):
@@ -243,15 +228,17 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
             residual, answered, done = np.inf, False, True  # closed between two places of the cells
         if done or answered:
             return residual, spent, answered, rounding
-        spent, columns = spent + 1, 1
+        spent, columns, fresh = spent + 1, 1, False
         if not (work.kept[0] > 0.0 and residual * (residual / last) ** MORE < tolerance):
             slopes_of_balance(film, work, wedge, rate, size)
             matrix(film, work, wedge, rate)
             work.kept[0] = 0.0
             if not factorise(work.matrix):
                 return residual, spent, False, rounding
-            work.kept[0], work.kept[1], columns = 1.0, rate, 1 + size
+            work.kept[0], work.kept[1], fresh = 1.0, rate, True
+            columns = answers_of_grooves(film, work, 1 + size)
         substitute(work.matrix, work.columns, columns)
+        follow_grooves(film, work, wedge, rate, size, fresh)
         last = residual
         if size > 0:
             _shaft_step(film, work, load, size, step)
@@ -271,30 +258,35 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     slopes_of_balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise(work.matrix)
-    substitute(work.matrix, work.columns, 1 + size)
+    substitute(work.matrix, work.columns, answers_of_grooves(film, work, 1 + size))
+    follow_grooves(film, work, wedge, 0.0, size, True)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
             stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
+    work.border.direct[:] = 0.0
     for i in range(nx):
-        squeeze = 0.0 if film.ring.groove[i] else film.ring.slope * film.ring.width[i]
+        still = film.ring.groove[i] and not film.held.columns[i]  # a groove between segments
+        squeeze = 0.0 if still else film.ring.slope * film.ring.width[i]
         for k in range(m):
             held = -squeeze * film.nodes.weights[k] * work.state[FILL, i, k]
             held *= work.gap[OPEN, i, k]
-            if film.held.on and film.held.grooves[i, k] >= 0:
-                held = 0.0
             modes = (
                 film.ring.cos[i],
                 film.ring.sin[i],
                 -film.nodes.z[k] * film.ring.sin[i],
                 film.nodes.z[k] * film.ring.cos[i],
             )
+            if film.held.on and film.held.grooves[i, k] >= 0:
+                displaced_by(film, work, i, k, held, modes, size)
+                held = 0.0
             # an elastic shell follows: its gap changes by what the pressure of the place makes
             grown = film.give * work.state[DLOAD, i, k]
             work.columns[0, i, k] = 0.0
             for a in range(size):
                 work.columns[1 + a, i, k] = held * (modes[a] + grown * work.columns[1 + a, i, k])
     substitute(work.matrix, work.columns, 1 + size)
+    follow_grooves(film, work, wedge, 0.0, size, True)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):

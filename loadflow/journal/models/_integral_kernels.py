@@ -121,7 +121,9 @@ def summarise(film, work, q, wedge, rate, row):
     row[film_.HIGHEST], row[film_.BEYOND] = left / pressed, beyond / pressed
     row[film_.FED] = fed(film, work, wedge) if ring.shaped else 0.0
     for j in range(work.fed.size):
+        i, k = film.feeding.samples[j, 0], film.feeding.samples[j, 1]
         row[film_.RESULTS + j] = work.fed[j]
+        row[film_.RESULTS + work.fed.size + j] = work.state[P, i, k]
 
 
 @once

@@ -19,7 +19,7 @@ from loadflow.journal.models._composed_kernels import (
     matrix,
     slopes_of_balance,
 )
-from loadflow.journal.models._composed_loops import keep, solve_system
+from loadflow.journal.models._composed_loops import keep
 from loadflow.journal.models._integral_kernels import fed, summarise
 from loadflow.journal.models._pad_kernels import (
     BEFORE,
@@ -46,6 +46,7 @@ from loadflow.journal.models._reduced_loops import (
     two_steps,
 )
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import lay_at, longer_step
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR

@@ -31,12 +31,13 @@ from loadflow.journal.models._composed_loops import (
     correct,
     keep,
     share_inside,
-    solve_system,
 )
 from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
+from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models.composed_film import Composed, ComposedWork
 from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
 from loadflow.numerics.references import refer
@@ -180,6 +181,7 @@ def _residual(one, other, shared, speed, rate, scale):
         wedge = 0.5 * film.ring.slope * side.thin[0] * speed
         flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
         residual = max(residual, balance(film, work, wedge, side.thin[0] * rate) / flux)
+        residual = max(residual, unfed(film, work))
         touch(film, work, side.new)
         if side.stop[1] > 0.0:
             _stop(side)
@@ -206,16 +208,17 @@ def _solve(one, other, shared, speed, rate, fresh):
     for k in range(2):
         side = one if k == 0 else other
         film, work = side.film, side.work
-        columns = 1
+        columns, wedge = 1, 0.5 * film.ring.slope * side.thin[0] * speed
         if fresh:
-            wedge = 0.5 * film.ring.slope * side.thin[0] * speed
             slopes_of_balance(film, work, wedge, side.thin[0] * rate, size)
             matrix(film, work, wedge, side.thin[0] * rate)
             work.kept[0] = 0.0
             if not factorise(work.matrix):
                 return False
             work.kept[0], work.kept[1], columns = 1.0, side.thin[0] * rate, 1 + size
+            columns = answers_of_grooves(film, work, columns)
         substitute(work.matrix, work.columns, columns)
+        follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
         carry(film, work, size)
         for c in range(size):
             for a in range(size):

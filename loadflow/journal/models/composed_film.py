@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
-from loadflow.journal.models.composed_supply import Held
+from loadflow.journal.models.composed_supply import Border, Feeding, Held, make_border
 from loadflow.journal.models.composed_uneven import Uneven
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
@@ -229,6 +229,8 @@ class Composed(NamedTuple):
         Whether the flow may be turbulent.
     held : Held
         What grooves of a supply hold.
+    feeding : Feeding
+        What feeds those whose pressure is unknown.
     uneven : Uneven
         Viscosity of the points.
     """
@@ -242,6 +244,7 @@ class Composed(NamedTuple):
     yielding: Yielding
     regime: Regime
     held: Held
+    feeding: Feeding
     uneven: Uneven
 
 
@@ -274,8 +277,9 @@ class ComposedWork(NamedTuple):
         ∂p across.
     matrix : RingSystem
         Derivatives of the residual, then their factors.
-    columns : array (5, nx, L)
-        Residual and its derivatives by the position; then what the matrix makes of them.
+    columns : array (5 + f, nx, L)
+        Residual and its derivatives by the position; then what the matrix makes of them. Behind
+        those that are in use the same of f unknown pressures of grooves.
     row : array (5, L)
         Rows of numbers that are taken one by one.
     centre : array (2, f)
@@ -309,6 +313,8 @@ class ComposedWork(NamedTuple):
         position; the rate of these, 1/s.
     fed : array (g,)
         Flow of the grooves of a supply into the film, as `balance` has it.
+    border : Border
+        Those whose pressure is unknown.
     sheared : array (nx, L)
         Shear of the points at the film's one viscosity, where `Uneven.on`.
     """
@@ -341,13 +347,14 @@ class ComposedWork(NamedTuple):
     past: Array
     kept: Array
     fed: Array
+    border: Border
     sheared: Array
 
 
-def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedWork:
+def make_work(around: int, nodes: Nodes, places: int, feeding: Feeding) -> ComposedWork:
     """Allocate the work arrays."""
     points, inner = nodes.slopes.shape
-    shape = around, lanes_for(points)
+    shape, free = (around, lanes_for(points)), feeding.first.size
     return ComposedWork(
         u=aligned(np.zeros(shape)),
         before=aligned(np.zeros(shape)),
@@ -361,7 +368,7 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         face=aligned(np.ones((5, *shape))),
         slope=aligned(np.zeros(shape)),
         matrix=ring_system(around, inner, shape[1]),
-        columns=aligned(np.zeros((5, *shape))),
+        columns=aligned(np.zeros((5 + free, *shape))),
         row=aligned(np.zeros((5, shape[1]))),
         centre=np.zeros((2, places)),
         bend=np.zeros(2),
@@ -376,6 +383,7 @@ def make_work(around: int, nodes: Nodes, places: int, grooves: int) -> ComposedW
         places=np.zeros((4, 4)),
         past=np.zeros(7),
         kept=np.zeros(2),
-        fed=np.zeros(grooves),
+        fed=np.zeros(feeding.slots.size),
+        border=make_border(free),
         sheared=np.zeros(shape),
     )

@@ -35,6 +35,7 @@ from loadflow.journal.models.composed_film import (
     make_work,
 )
 from loadflow.journal.models.composed_supply import (
+    feeding_of,
     held_points,
     nodes_beside,
     parted_at,
@@ -106,8 +107,8 @@ class ComposedFilm:
 
     @property
     def columns(self) -> int:
-        """Of a row of results: those of every film, then the flow of each groove."""
-        return at.RESULTS + self.work.fed.size
+        """Of a row of results: those of every film, then flow and pressure of each groove."""
+        return at.RESULTS + 2 * self.work.fed.size
 
     def judge(self, judged: Judged, n: int, speed: float) -> None:
         """Have the film that the work arrays hold at a `speed`, rad/s, judged, as number `n`."""
@@ -269,7 +270,8 @@ class ComposedFilm:
             "supply_flow": self.units.pockets.flow_unit * share * rows[:, at.FED],
         }
         if self.options.supply is not None:
-            values |= supplied(self.units, share * rows[:, at.RESULTS :], values["supply_flow"])
+            flows, pressure = np.split(rows[:, at.RESULTS :], 2, axis=1)
+            values |= supplied(self.units, share * flows, pressure, values["supply_flow"])
         if self.whole:
             values["tilt"] = rows[:, [at.TILT_X, at.TILT_Y]] * clearance / self.bearing.radius
             values["moment"] = rows[:, [at.MOMENT_X, at.MOMENT_Y]] * self.bearing.radius
@@ -333,6 +335,7 @@ def build(
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options)
     held = held_points(units, options, nodes, ring)
+    feeding = feeding_of(units, held, 0.5 if whole else 1.0)
     ring = ring._replace(groove=ring.groove | held.columns)
     places = _places(bearing, nodes.z, half, whole)
     give, uneven = _give(bearing, options), EVEN
@@ -346,9 +349,9 @@ def build(
     film = (SmoothFilm if effects == (None, None, None) else Composed)(
         ring, nodes, places, lanes_of(nodes, places.depth), give,
         rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
-        uneven,
+        feeding, uneven,
     )  # fmt: skip
-    work = make_work(ring.width.size, nodes, places.z.size, units.pockets.count)
+    work = make_work(ring.width.size, nodes, places.z.size, feeding)
     return ComposedFilm(bearing, options, line, units, film, work)
 
 
@@ -389,12 +392,8 @@ def unknowns_on(
     end = float(here.units.unknown_of(np.array([here.units.p_edge]))[0]) if edge is None else edge
     moved = np.full(there.work.u.shape, end)
     moved[:, :many] += (unknowns[:, :few] - end) @ across.T
-    held = there.film.held
-    if held.on and edge is None:  # grooves keep what they hold, up to a bearing end
-        columns = np.where(held.grooves >= 0)
-        moved[:, :many][columns] = there.cold()[:, :many][columns]
-    elif held.on:
-        put_in_grooves(there.units, held, moved)
+    for number, (i, k) in enumerate(here.film.feeding.samples):  # as held, up to a bearing end
+        moved[:, :many][there.film.held.grooves == number] = unknowns[i, k]
     return moved
 
 

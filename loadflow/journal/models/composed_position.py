@@ -31,6 +31,7 @@ from loadflow.journal.models.composed_model import (
     unknowns_on,
     warn_unresolved,
 )
+from loadflow.journal.models.composed_supply import falls_dry
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.numerics.convergence import Limits
@@ -166,7 +167,7 @@ class Positions:
             work.u[:] = cold
             row = self._approach(n, model, place, slopes, row[at.ITERATIONS])
         left = self.across is None and bool(model.unresolved_across(row[None])[0])
-        found = row[at.CONVERGED] > 0.0
+        found = row[at.CONVERGED] > 0.0 and not falls_dry(model.units, row[at.RESULTS :])
         found = bool(found and (not self.options.may_grade or model.resolves(place)))
         force = work.load[:2] + work.touch[0, :2]
         film = work.u.copy(), work.state[P].copy()

@@ -18,6 +18,7 @@ from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
+from loadflow.journal.models.composed_supply import falls_dry
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
@@ -128,6 +129,7 @@ def films_at_rest(
             residual, iterations, answered, rounding = row[at.RESIDUAL : at.RESULTS]
             spent += start.spent + int(iterations)
             converged = answered > 0.0 and (not options.may_grade or model.resolves(start.place))
+            converged = converged and not falls_dry(model.units, row[at.RESULTS :])
             none[n] = start.first and _MISSED < residual < 1.0 and model.touches(start.place)
             if converged:
                 rows[n], stiffness[n], damping[n] = row, *slopes

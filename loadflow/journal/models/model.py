@@ -235,11 +235,9 @@ def _beside_grooves(
     """What does not go with grooves on few points across the width; as `_pairs`."""
     supply, on_few = film.supply, 'on rung = "reduced"'
     assert supply is not None
-    yield "supply.pump", supply.pump, True, f"grooves of a given pressure {on_few}"
     segments, cells = bearing.shape.segments, (film.cells[0], bearing.radius)
     for number, groove in enumerate(supply.grooves):
-        name, given = f"supply.grooves[{number}]", f"a given pressure {on_few}"
-        yield f"{name}.restrictor", groove.restrictor, True, given
+        name = f"supply.grooves[{number}]"
         yield f"{name}.shape", groove.shape, groove.shape == "circle", f'"rectangle" {on_few}'
         apart, within = not on_one_segment(groove, segments, *cells), "that of a groove within one"
         yield f"{name}.angle", groove.angle, apart, f"{within} segment of the bore {on_few}"

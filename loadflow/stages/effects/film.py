@@ -368,7 +368,7 @@ SUPPLY = Effect(
     partly=(
         (
             "reduced",
-            "rectangular ones of given pressure, each on one segment, no moving pads or shell",
+            "rectangular ones, each on one segment, no moving pads or shell",
         ),
     ),
 )
