@@ -80,8 +80,8 @@ def _motion(at: Situation) -> Sizes:
         gain = gains()["journal"]
         # the mean of the friction moves less than its extremes
         power = MEAN * gain["friction power"] * float(np.max(change))
-        moved = (gain[name] * change for name in ("eccentricity ratio", "maximum pressure"))
-        found.append(worst(film, *moved, power))
+        eccentricity = gain["eccentricity ratio"] * change
+        found.append(worst(film, eccentricity, gain["maximum pressure"] * change, power))
     return largest(found)
 
 
@@ -225,7 +225,8 @@ def _shell(at: Situation) -> Sizes:
     for name, film in at.films.items():
         above = film.maximum_pressure - at.scene.journal.at(name).edge_pressure
         share = float(np.nanmax(above * compliance / film.minimum_film))
-        found.append({answer: min(0.25 * share, 1.0) for answer in ANSWERS})
+        # a gap that opens takes the pressure that opens it
+        found.append(dict.fromkeys(ANSWERS, 0.25 * share / (1.0 + share)))
     return largest(found)
 
 
