@@ -192,3 +192,28 @@ def test_bores_are_those_of_all_load_cases_in_every_process():
 def test_another_word_for_the_alignment_is_refused_by_its_name(word):
     with pytest.raises(InputError, match="alignment"):
         scene_of(alignment=word)
+
+
+def test_a_shaft_lies_straight_in_bearings_that_align_themselves():
+    scene = scene_of(self_aligning=True)
+    assert not scene.journal.at("N").tilt and scene.journal.tilting == []
+    assert not any(one.concerns(scene) for one in (CLEARANCES, TILT))
+    assert max(TILT.indicator(estimated(scene)).values()) == 0.0
+    assert CLEARANCES.concerns(scene_of())
+
+
+def test_one_bearing_that_aligns_itself_leaves_the_tilt_to_the_other_one():
+    geometry = {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
+    scene = scene_of(own={"N2": {"self_aligning": True, "geometry": geometry}})
+    assert scene.journal.tilting == ["N"]
+    at = estimated(scene)
+    assert set(closed_ends(at)) == {"N"} and closed_ends(at)["N"] > 0
+    assert CLEARANCES.concerns(scene) and CLEARANCES.switched(scene, True) is None
+
+
+def test_a_bearing_that_aligns_itself_takes_no_moment_and_is_never_out_of_line():
+    moments = [{"stiffness": "journal", "takes_moment": True}] * 2
+    with pytest.raises(InputError, match="it is self_aligning; leave out takes_moment"):
+        scene_of(moments, self_aligning=True)
+    with pytest.raises(InputError, match="it is self_aligning, and never out of line"):
+        scene_of(self_aligning=True, alignment=[1e-4, 0.0])

@@ -61,7 +61,9 @@ class Journal(Section, BaseModel):
     ``alignment`` is how far the bore is turned against the shaft that does not bend, rad: about
     down and about left; only a film with ``tilt`` around a beam knows it. ``"mean"`` is a bore that
     was aligned with the shaft as it lies at its usual load: in steady operation over the lifetime,
-    or in the mean of given series.
+    or in the mean of given series. A ``self_aligning`` bearing has a shell on a support that turns
+    with the shaft, such as a spherical seat or a ring of elastic or tilting pieces: however the
+    shaft tilts, it lies straight in it, and ``tilt`` and ``alignment`` say nothing of it.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -109,6 +111,7 @@ class Journal(Section, BaseModel):
     step: Positive | None = None
     tilt: bool = False
     alignment: Literal["mean"] | tuple[Slope, Slope] = (0.0, 0.0)
+    self_aligning: bool = False
     shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None
@@ -129,10 +132,18 @@ class Journal(Section, BaseModel):
         return self
 
     def at(self, place: str) -> Journal:
-        """The data of one of the bearings."""
-        if place not in self.own:
-            return self
-        return self.own[place].model_copy(update={name: getattr(self, name) for name in SHARED})
+        """The data of one of the bearings; one that is `self_aligning` knows no tilt."""
+        own, shared = self, {}
+        if place in self.own:
+            own, shared = self.own[place], {name: getattr(self, name) for name in SHARED}
+        if own.self_aligning:
+            shared |= {"tilt": False}
+        return own.model_copy(update=shared) if shared else own
+
+    @property
+    def tilting(self) -> list[str]:
+        """Bearings in which the shaft may tilt: all but those that are `self_aligning`."""
+        return [name for name in self.bearings if not self.at(name).self_aligning]
 
     @model_validator(mode="after")
     def _smoother_than_the_gap(self) -> Self:

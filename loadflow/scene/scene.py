@@ -174,7 +174,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
                 film = one.film_model.isothermal().closing()
                 held, free = Line(tilt=_ROW, bend=_ROW), Line(moment=_ROW)
                 lies = held if self.shaft.bends_at(place) else free
-                line = lies if journal.tilt else Line()
+                line = lies if one.tilt else Line()
                 steps = Steps(None, periodic=True)
                 why = why_not("in_motion", film, one.geometry, line, steps)
                 if why is not None:
@@ -249,11 +249,14 @@ class Scene(Section, WithFittingBeams, BaseModel):
                 raise ValueError(
                     f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
-                raise ValueError(
-                    f"{what} and takes_moment = true: only a tilted film takes a moment; set "
-                    "journal.tilt = true, or leave out takes_moment"
-                )
+            if support.takes_moment and support.stiffness == "journal":
+                if name not in self.journal.tilting:
+                    raise ValueError(f"{what}: it is self_aligning; leave out takes_moment")
+                if not self.journal.tilt:
+                    raise ValueError(
+                        f"{what} and takes_moment = true: only a tilted film takes a moment; set "
+                        "journal.tilt = true, or leave out takes_moment"
+                    )
             geometry = self.rolling.geometries.get(name)
             aligning = geometry is not None and not geometry.takes_moment
             if support.takes_moment and support.stiffness == "rolling" and aligning:

@@ -13,7 +13,7 @@ def floating(shaft: Shaft, journal: Journal) -> Iterator[tuple[str, Concept, lis
     """Yield suspensions whose shaft floats in two films or more: kind, suspension, its films.
 
     Loads lift a shaft in one bearing and press it down in the other, so that it tilts by up to
-    both clearances over their distance.
+    both clearances over their distance. Where all of these bearings are self-aligning, it may.
 
     Parameters
     ----------
@@ -24,7 +24,7 @@ def floating(shaft: Shaft, journal: Journal) -> Iterator[tuple[str, Concept, lis
     """
     for kind, concept in shaft.suspensions.items():
         films = [name for name in concept.bearings if name in journal.bearings]
-        if len(films) > 1:
+        if len(films) > 1 and set(films) & {*journal.tilting}:
             yield kind, concept, films
 
 

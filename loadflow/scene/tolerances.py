@@ -196,6 +196,8 @@ class Toleranced:
                         raise ValueError(f"{told}: {_first(error)}") from error
         for place in filter(self.is_turned, self.journal.bearings):
             where = f"journal.{ALIGNMENT}, bearing {place}"
+            if place not in self.journal.tilting:
+                raise ValueError(f"{where}: it is self_aligning, and never out of line")
             if not shaft.bends_at(place) or method == "periodic":
                 raise ValueError(
                     f"{where}: only a film at rest or along the series, around a shaft with a "

@@ -311,7 +311,11 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
-    if not journal.tilt and not scene.asks:
+    if journal.tilt and not scene.journal.tilting:
+        yield "tilt", "the bearings are self_aligning"
+    if journal.self_aligning:
+        yield "alignment", "the bearing is self_aligning"
+    elif not journal.tilt and not scene.asks:
         yield "alignment", "only a film with tilt knows it; set journal.tilt"
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
@@ -362,7 +366,8 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         and not any(map(scene.shaft.bends_at, scene.thrust.collars))
     ):
         yield "thrust.tilt", "no shaft with a thrust collar is a beam"
-    if scene.thrust.tilt and all(one.self_aligning for one in scene.thrust.collars.values()):
+    collars = scene.thrust.collars.values()
+    if scene.thrust.tilt and collars and all(one.self_aligning for one in collars):
         yield "thrust.tilt", "pads that are self_aligning follow the collar"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:

@@ -69,7 +69,7 @@ def bores(scene: Scene) -> dict[str, Floats]:
 
 def follow_the_shaft(scene: Scene) -> list[str]:
     """Journal bearings whose bores are aligned with the shaft at its usual load."""
-    return [name for name in scene.journal.bearings if scene.journal.at(name).alignment == "mean"]
+    return [name for name in scene.journal.tilting if scene.journal.at(name).alignment == "mean"]
 
 
 def with_bores(scene: Scene, shaft: xr.Dataset) -> xr.Dataset:

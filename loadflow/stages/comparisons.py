@@ -221,7 +221,7 @@ def _films(
         places = _spread(_running_ratio(case, film))
         some = film.isel(sample=places)
         loads = parts["reduction"][bearing].to_dataset().isel(sample=places)
-        line = shaft_line(scene.journal, loads)
+        line = shaft_line(scene.journal.at(bearing), loads)
         answer = equilibria(better, loads["force"].values, some["speed"].values, **line)
         ours = {quantity: some[quantity].values for quantity in FILM}
         where = f"{case.name}, {bearing}"

@@ -69,7 +69,8 @@ def move_together(scene: Scene, concept: Concept) -> bool:
     films = [support.stiffness == "journal" for support in concept.beam.supports]
     if films != [True, True] or not scene.journal.tilt or scene.journal.rung != "reduced":
         return False
-    return all(_followable(scene.journal.at(name)) for name in concept.bearings)
+    tilting = set(concept.bearings) <= {*scene.journal.tilting}
+    return tilting and all(_followable(scene.journal.at(name)) for name in concept.bearings)
 
 
 def _followable(options: Journal) -> bool:

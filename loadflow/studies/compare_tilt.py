@@ -69,7 +69,7 @@ def shaft_tilt(scene: Scene, folder: Path, tables: Tables) -> Tilt:
 
     allowed = _allowed_tilts(scene, tables)
     ran = read_scene(folder / "scene.toml")  # with the effects that the run had
-    tilted = ran.journal.bearings if "journal" in tables and ran.journal.tilt else ()
+    tilted = ran.journal.tilting if "journal" in tables and ran.journal.tilt else ()
     widths = shaft_widths(
         scene.journal if "journal" in tables else None,
         scene.rolling if "rolling" in tables else None,
@@ -121,13 +121,15 @@ def _beam_through(concept: Concept, widths: Mapping[str, float]) -> tuple[Concep
 def _allowed_tilts(scene: Scene, tables: Tables) -> dict[str, float]:
     """By place: tilt that the bearing allows, rad; 0: no limit.
 
-    A journal bearing allows that which closes its smallest film at an end.
+    A journal bearing allows that which closes its smallest film at an end; one that is
+    self-aligning has no limit.
     """
     found: dict[str, float] = {}
     if "journal" in tables:
         for place in scene.journal.bearings:
             film = float(tables["journal"]["smallest_film"].sel(bearing=place).min())
-            found[place] = 2 * film / scene.journal.at(place).geometry.width
+            end = 0.5 * scene.journal.at(place).geometry.width
+            found[place] = film / end if place in scene.journal.tilting else 0.0
     if "rolling" in tables:
         for place, bearing in scene.rolling.geometries.items():
             found[place] = bearing.allowed_tilt or 0.0

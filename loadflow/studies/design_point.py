@@ -187,7 +187,7 @@ def _add_film(
     answer = film.at(asked)
     film_of = _thickness(answer, asked, speed.size)
     judged = np.flatnonzero(running)
-    if shaft is not None and judged.size and not options.tilt:
+    if shaft is not None and judged.size and not (options.tilt or options.self_aligning):
         closing = 2 * film_of[judged] / options.geometry.width
         share = float((closing / np.maximum(_tilt(samples)[judged], 1e-300)).min())
         sums.conditions[f"tilt of the shaft in {place}"] = share

@@ -281,6 +281,9 @@ def _misaligned(built: Built, angle: float) -> Iterator[Tolerance]:
     """
     one = built.candidate
     if one.journal is not None:
+        collars = one.thrust.collars.values() if one.thrust is not None else ()
+        if not one.journal.tilting and all(collar.self_aligning for collar in collars):
+            return
         bent = all("tilt" in built.spectrum[place] for place in one.journal.bearings)
         if one.journal.tilt and not bent:
             return

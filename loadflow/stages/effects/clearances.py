@@ -87,6 +87,8 @@ def closed_ends(at: Situation) -> dict[str, float]:
     for _, concept, names in floating(at.scene.shaft, at.scene.journal):
         slope, films = slopes(at, concept, names)
         for name, film in films.items():
+            if name not in at.scene.journal.tilting:
+                continue
             own = at.scene.journal.at(name)
             if own.alignment == "mean":
                 bore = slope[0, at.turns].mean(axis=0) if at.turns.any() else np.zeros(3)

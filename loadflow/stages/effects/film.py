@@ -153,6 +153,8 @@ def _tilt(at: Situation) -> Sizes:
     geometry = scene.journal.geometry
     floats = closed_ends(at) if floats_in_films(scene.shaft, scene.journal) else {}
     for name, film in at.films.items():
+        if name not in scene.journal.tilting:
+            continue
         concept = next(c for c in scene.shaft.concepts if name in c.bearings)
         span = max(np.ptp(concept.positions), concept.positions[0])
         beam = concept.beam
@@ -175,7 +177,7 @@ def _tilt(at: Situation) -> Sizes:
                 "friction power": 0.04 * most,
             }
         )
-    return largest(found)
+    return largest(found) if found else dict.fromkeys(ANSWERS, 0.0)
 
 
 def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
@@ -195,10 +197,11 @@ TILT = Effect(
     is_on=lambda scene: scene.journal.tilt,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"tilt": on})
-        if not on or any(map(scene.shaft.bends_at, scene.journal.bearings))
+        if not on or any(map(scene.shaft.bends_at, scene.journal.tilting))
         else None
     ),
     indicator=_tilt,
+    concerns=lambda scene: bool(scene.journal.tilting),
     out="no journal.tilt: half the width of the film is solved",
     needs="journal.tilt = true, with a beam as the shaft",
     cost=cost_of("tilt"),
