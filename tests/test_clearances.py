@@ -196,7 +196,8 @@ def test_another_word_for_the_alignment_is_refused_by_its_name(word):
 
 def test_a_shaft_lies_straight_in_bearings_that_align_themselves():
     scene = scene_of(self_aligning=True)
-    assert not scene.journal.at("N").tilt and scene.journal.tilting == []
+    assert not scene.journal.at("N").tilt
+    assert scene.journal.tilting == []
     assert not any(one.concerns(scene) for one in (CLEARANCES, TILT))
     assert max(TILT.indicator(estimated(scene)).values()) == 0.0
     assert CLEARANCES.concerns(scene_of())
@@ -207,8 +208,10 @@ def test_one_bearing_that_aligns_itself_leaves_the_tilt_to_the_other_one():
     scene = scene_of(own={"N2": {"self_aligning": True, "geometry": geometry}})
     assert scene.journal.tilting == ["N"]
     at = estimated(scene)
-    assert set(closed_ends(at)) == {"N"} and closed_ends(at)["N"] > 0
-    assert CLEARANCES.concerns(scene) and CLEARANCES.switched(scene, True) is None
+    assert set(closed_ends(at)) == {"N"}
+    assert closed_ends(at)["N"] > 0
+    assert CLEARANCES.concerns(scene)
+    assert CLEARANCES.switched(scene, True) is None
 
 
 def test_a_bearing_that_aligns_itself_takes_no_moment_and_is_never_out_of_line():
