@@ -243,9 +243,11 @@ class Beam:
 
         As films that give way under a moment let it; rigid bearings that take one would clamp it.
         """
-        free = {"stiffness": "given", "takes_moment": False, "housing_tilt": None}
         supports = tuple(
-            replace(one, **free) if one.stiffness == "journal" else one for one in self.supports
+            replace(one, stiffness="given", takes_moment=False, housing_tilt=None)
+            if one.stiffness == "journal"
+            else one
+            for one in self.supports
         )
         return replace(self, supports=supports)
 

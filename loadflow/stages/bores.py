@@ -197,7 +197,7 @@ def _of_operation(scene: Scene) -> UsualLoads:
     winds = np.linspace(turbine.cut_in, turbine.cut_out, count)
     options = replace(loads.rotor_options, air_density=scene.environment.air_density)
     found = steady_state(
-        turbine, winds, shear=loads.shear_exponent, rung=loads.rung, options=options
+        turbine, winds.tolist(), shear=loads.shear_exponent, rung=loads.rung, options=options
     )
     shares = speed_shares(winds, wind_class(scene))
     force, moment = (

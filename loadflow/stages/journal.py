@@ -109,7 +109,8 @@ def _together(scene: Scene, loads: xr.Dataset) -> dict[str, tuple[xr.Dataset, fl
     """Path and temperature of the films that are followed with the shaft, by bearing."""
     from loadflow.turbines import load_turbine
 
-    tilt, found = load_turbine(scene.turbine.name).rotor.tilt, {}
+    tilt = load_turbine(scene.turbine.name).rotor.tilt
+    found: dict[str, tuple[xr.Dataset, float | None]] = {}
     for concept in scene.shaft.concepts:
         if move_together(scene, concept) and runs(loads["speed"].values.astype(float)):
             try:

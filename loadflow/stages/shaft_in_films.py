@@ -192,9 +192,12 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
             geometries, films, series["time"], series["speed"], lying, control, begins
         )  # fmt: skip
         after = slice(past.steps, None)
-        parts = (found.position, found.tilt, found.moment)
-        paths = [one.isel(time=after) for one in found.paths]
-        return SharedPath(*(part[after] for part in parts), paths=paths)
+        return SharedPath(
+            position=found.position[after],
+            tilt=found.tilt[after],
+            moment=found.moment[after],
+            paths=[one.isel(time=after) for one in found.paths],
+        )
 
     return FilmsTogether(after_past(path, past_of(scene, loads), time), warm)
 

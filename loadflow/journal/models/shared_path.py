@@ -185,7 +185,11 @@ class _March:
         first = self.films[LEVELS[0]]
         self.sides = [_side(k, first, lying, temperature[k]) for k in range(2)]
         load = sum(lying.force[:, k] @ side.felt[:2] for k, side in enumerate(self.sides))
-        self.shared = Shared(np.array(load), *np.zeros((6, 4)), np.zeros((4, 5)), np.zeros(1))
+        now, before, new, step, missing, moment = np.zeros((6, 4))
+        self.shared = Shared(
+            np.array(load), now, before, new, step, missing, moment,
+            system=np.zeros((4, 5)), steps=np.zeros(1),
+        )  # fmt: skip
         self.before: list[tuple[Array, Array]] = []
 
     def _films(
@@ -234,8 +238,9 @@ class _March:
         for side in self.sides:
             kept += [side.place, side.past, side.thin, side.work.last, side.work.before]
         self.before = [(values, values.copy()) for values in kept]
+        first, second = self.sides
         return follow(
-            *self.sides, self.shared, begin, self.time[:end], self.speed[:end],
+            first, second, self.shared, begin, self.time[:end], self.speed[:end],
             self.control.tolerance, self.control.max_iterations,
         )  # fmt: skip
 
