@@ -216,7 +216,7 @@ def test_one_bearing_that_aligns_itself_leaves_the_tilt_to_the_other_one():
 
 def test_a_bearing_that_aligns_itself_takes_no_moment_and_is_never_out_of_line():
     moments = [{"stiffness": "journal", "takes_moment": True}] * 2
-    with pytest.raises(InputError, match="it is self_aligning; leave out takes_moment"):
+    with pytest.raises(InputError, match="it aligns itself; leave out takes_moment"):
         scene_of(moments, self_aligning=True)
     with pytest.raises(InputError, match="it is self_aligning, and never out of line"):
         scene_of(self_aligning=True, alignment=[1e-4, 0.0])

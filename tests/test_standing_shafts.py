@@ -49,12 +49,12 @@ def followed(monkeypatch):
     """Speeds of each stretch that is followed; the answers are made up."""
     stretches = []
 
-    def follow(journal, loads, shaft):
+    def follow(scene, bearing, loads, shaft):
         stretches.append(loads["speed"].values)
         ones = np.ones(loads.sizes["time"])
         return xr.Dataset(dict.fromkeys(comparisons.FILM, ("time", ones)))
 
-    monkeypatch.setattr(probes, "follow", follow)
+    monkeypatch.setattr(probes, "in_motion", follow)
     return stretches
 
 
@@ -138,7 +138,7 @@ def cases(**loads):
 def test_what_a_scene_states_is_not_measured_in_a_short_run(monkeypatch):
     stretches = followed(monkeypatch)
     monkeypatch.setattr(
-        probes, "_at_rest", lambda journal, loads, shaft: probes.follow(0, loads, 0)
+        probes, "_at_rest", lambda journal, loads, shaft: probes.in_motion(0, "", loads, 0)
     )
     scene = scene_of("1.1", wind_speeds=[12.0], duration=20.0)
     loose = scene.model_copy(update={"journal": replaced(scene)})
@@ -175,11 +175,11 @@ def kept(speed):
 def test_no_cells_are_refined_for_a_shaft_that_stands(dlc, speed, is_asked, monkeypatch):
     stretches = []
 
-    def follow(journal, loads, shaft, place):
+    def follow(scene, bearing, loads, shaft, place):
         stretches.append(loads["speed"].values)
         return xr.Dataset({n: ("time", np.full(loads.sizes["time"], 0.5)) for n in probes.FILM})
 
-    monkeypatch.setattr(comparisons, "follow", follow)
+    monkeypatch.setattr(comparisons, "in_motion", follow)
     scene = scene_of(dlc)
     series = given(speed * np.ones(400)) | {"journal": kept(speed * np.ones(400))}
     rows = comparisons.COMPARISONS["journal"](scene, list_cases(scene)[0], series)

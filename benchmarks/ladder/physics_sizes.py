@@ -126,7 +126,7 @@ def scene_of(
         place: {
             key: value
             for key, value in (journal[place] | (film or {})).items()
-            if value is not None
+            if value is not None and key != "self_aligning"  # tilt is one of the effects
         }
         for place in ("N", "N2")
     }

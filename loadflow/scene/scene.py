@@ -249,18 +249,16 @@ class Scene(Section, WithFittingBeams, BaseModel):
                 raise ValueError(
                     f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            if support.takes_moment and support.stiffness == "journal":
-                if name not in self.journal.tilting:
-                    raise ValueError(f"{what}: it is self_aligning; leave out takes_moment")
-                if not self.journal.tilt:
-                    raise ValueError(
-                        f"{what} and takes_moment = true: only a tilted film takes a moment; set "
-                        "journal.tilt = true, or leave out takes_moment"
-                    )
-            geometry = self.rolling.geometries.get(name)
-            aligning = geometry is not None and not geometry.takes_moment
-            if support.takes_moment and support.stiffness == "rolling" and aligning:
+            aligning = name not in self.journal.tilting
+            if support.stiffness == "rolling":
+                aligning = not self.rolling.geometries[name].takes_moment
+            if support.takes_moment and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
+            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
+                raise ValueError(
+                    f"{what} and takes_moment = true: only a tilted film takes a moment; set "
+                    "journal.tilt = true, or leave out takes_moment"
+                )
         return self
 
     @property

@@ -112,8 +112,9 @@ def _with_tolerances(schema: dict[str, Any]) -> None:
         seen.add(name)
         for key, part in parts[name].get("properties", {}).items():
             todo += _references(part)
-            if "prefixItems" in part:
-                part["prefixItems"] = [_or_toleranced(one) for one in part["prefixItems"]]
+            for one in (part, *part.get("anyOf", [])):
+                if "prefixItems" in one:
+                    one["prefixItems"] = [_or_toleranced(item) for item in one["prefixItems"]]
             if _holds_a_number(part) or key == "oil":
                 parts[name]["properties"][key] = _or_toleranced(part)
         todo += _references({k: v for k, v in parts[name].items() if k != "properties"})

@@ -315,8 +315,10 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
         yield "tilt", "the bearings are self_aligning"
     if journal.self_aligning:
         yield "alignment", "the bearing is self_aligning"
-    elif not journal.tilt and not scene.asks:
-        yield "alignment", "only a film with tilt knows it; set journal.tilt"
+    bends = any(map(scene.shaft.bends_at, scene.journal.bearings))
+    if not scene.journal.tilt and not (scene.asks and bends):
+        for key in ("alignment", "self_aligning"):
+            yield key, "only a film with tilt knows it; set journal.tilt, with a beam as the shaft"
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
     if journal.inlet == "none" and journal.cavitation.kind not in ("reynolds", "guembel"):
@@ -369,6 +371,11 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     collars = scene.thrust.collars.values()
     if scene.thrust.tilt and collars and all(one.self_aligning for one in collars):
         yield "thrust.tilt", "pads that are self_aligning follow the collar"
+    bends = any(map(scene.shaft.bends_at, scene.thrust.collars))
+    if not scene.thrust.tilt and not (scene.asks and bends):
+        for place in scene.thrust.collars:
+            where = f"thrust.bearings.{place}.self_aligning"
+            yield where, "only films with tilt know it; set thrust.tilt, with a beam as the shaft"
     for place, one in scene.thrust.bearings.items():
         if simulated and not starts and one.limits.start_time is not None:
             where = f"thrust.bearings.{place}.limits.start_time"

@@ -53,7 +53,7 @@ class Tilt:
     place: str = ""
     case: str = ""
     time: float = math.nan
-    note: str = "the bearing takes the moment"
+    note: str = "the bearing takes the moment, or aligns itself"
     by_case: dict[str, float] = field(default_factory=dict)
 
 

@@ -123,9 +123,6 @@ def test_heat_is_refused_where_no_model_has_it():
     film = Film(heat=Heat(), **WORDS)
     with pytest.raises(InputError, match="heat = "):
         BEARING.pressure((0.0, 0.0), 100.0, film)
-    fast = Film(heat=FilmHeat(), **WORDS | {"rung": "reduced"})
-    with pytest.raises(InputError, match="heat = "):
-        BEARING.pressure((0.0, 0.0), 100.0, fast)
     chart = Film(heat=FilmHeat(), **WORDS | {"rung": "map"})
     with pytest.raises(InputError, match="heat = "):
         BEARING.orbit([0.0, 0.1], [LOAD, LOAD], 100.0, chart)

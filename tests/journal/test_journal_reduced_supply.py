@@ -7,7 +7,6 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.journal import (
-    Capillary,
     Film,
     GasMixture,
     Groove,
@@ -17,7 +16,6 @@ from loadflow.journal import (
     LocalShell,
     Lubricant,
     MassConserving,
-    Pump,
     Reynolds,
     Sommerfeld,
     Supply,
@@ -190,12 +188,6 @@ def test_values_at_the_points_of_other_stretches_are_those_of_the_polynomials(wh
 
 
 REFUSED = {
-    "pump": ({"supply": Supply((Groove(1.0, length=0.05),), Pump((0.0,), (2e5,)))}, "pump"),
-    "restrictor": (
-        {"supply": Supply((Groove(1.0, arc=0.3, length=0.05, pressure=2e5,
-                                  restrictor=Capillary(2e-3, 0.1)),))},
-        r"grooves\[0\].restrictor",
-    ),
     "circle": (
         {"supply": Supply((Groove(1.0, length=0.05, pressure=2e5, shape="circle"),))},
         r"grooves\[0\].shape",

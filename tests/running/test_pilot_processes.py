@@ -9,7 +9,8 @@ import loadflow as lf
 from loadflow.planning import pilot as pilots
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
-from loadflow.stages.effects.film import MOTION, TILT
+from loadflow.stages.effects.clearances import CLEARANCES
+from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.registry import EFFECTS
 
 
@@ -45,18 +46,18 @@ def test_a_short_run_asks_what_its_models_hang_on_and_no_more(tmp_path, monkeypa
         without.append(effect.name)
         return left_out(probe, effect, *of)
 
-    left_out = pilots._without
-    monkeypatch.setattr(pilots, "_without", seen)
+    left_out = pilots.without
+    monkeypatch.setattr(pilots, "without", seen)
     cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=500)
     shaft = {"two_point": {"beam": {"sections": [{"outer_diameter": 3.0, "inner_diameter": 2.7}]}}}
     loads, wanted = {"files": [str(cube)]}, ["journal.film"]
     scene = make_scene({"name": "short", "results": wanted, "loads": loads, "shaft": shaft})
     whole = pilots.pilot(scene)
-    assert {*without} == {*whole.sizes} >= {MOTION.name, TILT.name}
+    assert {*without} == {*whole.sizes} >= {MOTION.name, CLEARANCES.name}
     without.clear()
     brief = pilots.pilot(scene, brief=True)
     assert {*without} == {*brief.sizes}
-    assert TILT.name in without
+    assert CLEARANCES.name in without
     assert MOTION.name not in without
     kept = [
         {one.name for one in make_plan(scene, verdict=verdict).effects if one.kept}
