@@ -338,7 +338,7 @@ def test_a_spectrum_holds_the_variance_of_the_series(cube):
     found = cube.lf.spectrum("hub_moment")
     assert found["frequency"].attrs["units"] == "Hz"
     assert set(found["units"].values) == {found.attrs["units"]}
-    assert cube.lf.statistics("hub_moment.y").attrs["units"] == "see coordinate units"
+    assert "units" not in cube.lf.statistics("hub_moment.y").attrs  # no unit that pint could read
     assert pint.Quantity(1.0, found.attrs["units"]).to("N^2 m^2 s").magnitude == 1.0
     for axis in ("y", "z"):
         series = cube["hub_moment"].sel(axis=axis).isel(case=0)

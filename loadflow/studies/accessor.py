@@ -190,7 +190,8 @@ class LoadflowAccessor:
         """What is found of every channel of every case, as one array.
 
         The coordinate ``units`` has `unit` of that of each channel; without one they are those of
-        the series, but not of every value.
+        the series, but not of every value. Where they are not one, the array has no attribute of
+        that name, which libraries of units would read as one.
         """
         names = self.channels(*wanted)
         cases, rows, units = [], [], [""] * len(names)
@@ -200,11 +201,11 @@ class LoadflowAccessor:
             rows.append([work(part) for part in parts])
             cases.append(case)
         units = [unit.format(one) for one in units] if unit else units
-        common = units[0] if unit and len(set(units)) == 1 else "see coordinate units"
+        common = {"units": units[0]} if unit and len(set(units)) == 1 else {}
         return xr.DataArray(
             np.array(rows),
             {"case": cases, "channel": names, "units": ("channel", units), **coords},
             ("case", "channel", *dims),
             meaning.replace(" ", "_"),
-            {"units": common, "long_name": meaning},
+            common | {"long_name": meaning},
         )
