@@ -146,13 +146,14 @@ def series_temperature(
         given = model, bearing, film, force[some], speed[some], line.at(some), limits
         return _of_mean(*given, start, ABOUT if about else BALANCED)
 
-    start = None
-    if some.size > 2 * FEW:  # all of them are asked at few temperatures
+    start, worth_asking = None, some.size <= 2 * FEW
+    if not worth_asking:  # all of them are asked at few temperatures
         few = some[np.linspace(0, some.size - 1, FEW).round().astype(int)]  # the mildest first
         found = mean(few, limits, about=True)
         _check_warmth(found, SURELY)
         start = float(np.nanmax(found["temperature"])) if found["converged"].any() else None
-    if start is not None or some.size <= 2 * FEW:
+        worth_asking = start is not None or _still_warms(found) > 0.0  # all may be in balance
+    if worth_asking:
         found = mean(some, limits, start)
     if not found["converged"].any():
         _check_warmth(found)
@@ -208,10 +209,16 @@ def _of_mean(
     return warm_film(at_rest, force, speed, film, shares, tolerance, strict=False, start=near)
 
 
+def _still_warms(found: dict[str, Any]) -> float:
+    """What films that were found warm by, K; 0 where none was found."""
+    left = float(np.max(found["heat_residual"], initial=0.0))
+    return left if left < np.inf else 0.0
+
+
 def _check_warmth(found: dict[str, Any], least: float = BALANCED) -> None:
     """Raise where films are found that warm by more than `least`, K, at every temperature."""
-    left = float(np.max(found["heat_residual"], initial=0.0))
-    if not found["converged"].any() and least < left < np.inf:
+    left = _still_warms(found)
+    if not found["converged"].any() and left > least:
         raise SolverError(
             f"orbit cannot start: no heat balance below {HOTTEST} K; the mean friction of loads "
             f"spread over the series still warms the film by {left:.3g} K"

@@ -22,6 +22,7 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
     warm_equilibrium,
+    warm_orbit,
 )
 from loadflow.journal.line import Line
 from loadflow.journal.thermal import warm_film
@@ -262,6 +263,22 @@ def test_loads_on_a_shaft_that_has_stopped_are_not_asked_for_their_heat():
     assert {size.size for size, _ in model.asked} == {FEW, 32}
     running = series_temperature(model, BEARING, film, force[:32], speed[:32], Line())
     assert stopped == pytest.approx(running, rel=1e-12)
+
+
+def test_all_loads_are_asked_where_a_few_of_them_hardly_miss_their_balance(monkeypatch):
+    sizes = []
+
+    def of_mean(model, bearing, film, force, speed, line, limits, start, tolerance):
+        sizes.append(speed.size)
+        few = speed.size <= FEW
+        return {
+            "converged": np.full(speed.size, not few), "temperature": np.full(speed.size, 330.0),
+            "heat_residual": np.full(speed.size, 5.0 if few else 0.0),
+        }  # fmt: skip
+
+    monkeypatch.setattr(warm_orbit, "_of_mean", of_mean)
+    assert _series_temperature(_CarriesUpTo(1e6)) == 330.0
+    assert sizes == [FEW, 64]
 
 
 def test_where_no_load_has_a_film_the_mildest_are_asked_of_a_finer_model():
