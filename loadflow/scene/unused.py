@@ -373,7 +373,7 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "thrust.tilt", "pads that are self_aligning follow the collar"
     bends = any(map(scene.shaft.bends_at, scene.thrust.collars))
     if not scene.thrust.tilt and not (scene.asks and bends):
-        for place in scene.thrust.collars:
+        for place in (name for name, one in scene.thrust.collars.items() if one.self_aligning):
             where = f"thrust.bearings.{place}.self_aligning"
             yield where, "only films with tilt know it; set thrust.tilt, with a beam as the shaft"
     for place, one in scene.thrust.bearings.items():
