@@ -1,10 +1,9 @@
 """One shaft in two reduced films with effects, followed through time.
 
 Both films and the shaft are one system: each film has the loads, and the shaft the tilt, that the
-other one leaves. The shaft is rigid between the films; how their moments bend it, and turn
-housings, is that of the last step. Films in smooth bores do not keep shaft and shell apart for sure
-where it is pressed on a bearing end, as cells are wider than the film is long there; what surfaces
-that touch do is done by a stop at each end.
+other one leaves, with what the moments of the films bend it, and turn housings. Films in smooth
+bores do not keep shaft and shell apart for sure where it is pressed on a bearing end, as cells are
+wider than the film is long there; what surfaces that touch do is done by a stop at each end.
 """
 
 from __future__ import annotations
@@ -21,7 +20,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
-from loadflow.journal.models._shared_loops import Shared, Side, follow
+from loadflow.journal.models._shared_loops import COORDINATES, SHAFT, Shared, Side, follow
 from loadflow.journal.models.composed_film import Composed
 from loadflow.journal.models.composed_model import (
     LEVELS,
@@ -184,11 +183,12 @@ class _March:
         self.films = {n: self._films(bearings, options, most, n) for n in LEVELS}
         first = self.films[LEVELS[0]]
         self.sides = [_side(k, first, lying, temperature[k]) for k in range(2)]
-        load = sum(lying.force[:, k] @ side.felt[:2] for k, side in enumerate(self.sides))
-        now, before, new, step, missing, moment = np.zeros((6, 4))
+        felt = [side.felt[:2, :COORDINATES] for side in self.sides]
+        load = sum(lying.force[:, k] @ felt[k] for k in range(2))
+        now, before, new, step, missing = np.zeros((5, SHAFT))
         self.shared = Shared(
-            np.array(load), now, before, new, step, missing, moment,
-            system=np.zeros((4, 5)), steps=np.zeros(1),
+            np.array(load), now, before, new, step, missing,
+            system=np.zeros((SHAFT, SHAFT + 1)), steps=np.zeros(1), told=np.zeros(2),
         )  # fmt: skip
         self.before: list[tuple[Array, Array]] = []
 
@@ -218,7 +218,7 @@ class _March:
             along = np.concatenate([np.zeros((1, 2)), side.bend[:1]], axis=1)
             far.append(model.estimates(self.lying.force[:1, k], self.speed[:1], along)[0, :2])
         for share in _SHARES:
-            self.shared.at[:] = share * np.concatenate(far)
+            self.shared.at[:COORDINATES] = share * np.concatenate(far)
             for side in self.sides:
                 side.place[:] = side.lies @ self.shared.at + side.given[0]
             both = zip(self.sides, models)
@@ -273,7 +273,8 @@ class _March:
         """Say at which time the path ends."""
         k = int(np.argmin([side.rows[done - 1, at.LEAST] for side in self.sides]))
         ratio = float(np.hypot(*self.sides[k].place[:2]))
-        missed = float(np.linalg.norm(self.shared.missing)), 0.0, self.control.max_iterations
+        residual, iterations = self.shared.told
+        missed = float(residual), 0.0, int(iterations)
         return stopped(self.time[done], self.lying.force[done, k], self.speed[done], ratio, missed)
 
     def told(self) -> SharedPath:
@@ -306,16 +307,19 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     """One film, in the units of the loops; coordinates are the positions in clearances."""
     model, count = models[number], len(lying.tilt)
     turn = model.bearing.radius / model.bearing.clearance
-    given, lies, turned = np.zeros((count, 4)), np.zeros((4, 4)), np.zeros((4, 4))
+    given, lies = np.zeros((count, 4)), np.zeros((4, SHAFT))
     given[:, 2:] = lying.tilt[:, number] * turn
     lies[[0, 1], [2 * number, 2 * number + 1]] = 1.0
     for k, other in enumerate(models):
-        both = slice(2 * k, 2 * k + 2)
-        lies[2:, both] = turn * other.bearing.clearance * lying.by_position[number, :, k]
-        turned[2:, both] = turn * other.bearing.radius * lying.by_moment[number, :, k]
+        places, moments = (slice(first + 2 * k, first + 2 * k + 2) for first in (0, COORDINATES))
+        lies[2:, places] = turn * other.bearing.clearance * lying.by_position[number, :, k]
+        lies[2:, moments] = turn * other.bearing.radius * lying.by_moment[number, :, k]
     felt = lies * model.bearing.clearance / models[0].bearing.clearance
+    felt[:, COORDINATES:] = 0.0
     if not lying.felt[number]:
         felt[2:] = 0.0
+    own = COORDINATES + 2 * number
+    felt[[2, 3], [own, own + 1]] = 1.0
     film, contact = model.film, model.options.contact
     load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
     if film.rough.size > 0.0 or film.give > 0.0 or film.ring.shaped:
@@ -323,7 +327,7 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
     return Side(
-        film=film, work=model.work, lies=lies, felt=felt, turned=turned, given=given,
+        film=film, work=model.work, lies=lies, felt=felt, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
