@@ -7,6 +7,7 @@ import sys
 import numpy as np
 import pytest
 import xarray as xr
+from synthetic import cube_file
 
 from loadflow.errors import InputError
 from loadflow.planning.pilot import Questions, measure
@@ -14,7 +15,7 @@ from loadflow.planning.plan import chosen_models, make_plan
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft_place import floating
-from loadflow.stages import bores
+from loadflow.stages import bores, thrust
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
 from loadflow.stages.effects.film import TILT
 from loadflow.stages.effects.situation import situation
@@ -163,10 +164,37 @@ def test_a_bore_is_turned_as_stated_or_as_the_shaft_lies():
     assert {name: turn.tolist() for name, turn in bores.bores(stated).items()} == {
         name: from_film([1e-4, -2e-5]).tolist() for name in ("N", "N2")
     }
-    assert "alignment" not in at_usual_loads(stated)[0]
+    told = at_usual_loads(stated)[0]["alignment"].transpose("bearing", "axis").values
+    np.testing.assert_allclose(told, [from_film([1e-4, -2e-5])] * 2, rtol=1e-6)
+    assert "alignment" not in at_usual_loads(scene_of())[0]
     one = scene_of(own={"N2": {"alignment": "mean"}})
     assert not np.any(bores.bores(one)["N"])
     assert np.any(bores.bores(one)["N2"])
+
+
+@pytest.mark.parametrize("turned", ["mean", [1e-4, -2e-5]])
+def test_pads_have_the_tilt_of_the_shaft_in_the_bore_that_they_stand_in(turned):
+    scene = scene_of(alignment=turned, own={"N2": {"alignment": [0.0, 0.0]}})
+    row = {"pads": 6, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5}
+    collar = {"kind": "thrust", "geometry": row, "play": 6e-4}
+    collars = {"N": collar, "N2": collar}
+    pads = make_scene(
+        {
+            "name": "pads",
+            "results": ["thrust.film"],
+            "shaft": {"two_point": {"beam": {}}},
+            "thrust": {"tilt": True, "motion": "transient", "bearings": collars},
+        }
+    )
+    found, usual = at_usual_loads(scene)
+    loads = xr.Dataset({"speed": ("time", usual.speed)}, {"time": found["time"]})
+    inputs = {"loads": loads, "shaft": found}
+    for name, bore in bores.bores(scene).items():
+        part = pads.thrust.bearings[name]
+        told = thrust.samples_of(pads, Case("1.1", 12.0, 1), part, name, inputs)["tilt"]
+        lies = found["tilt"].sel(bearing=name).transpose("time", "axis").values
+        assert np.any(bore) == (name == "N")
+        np.testing.assert_allclose(told.values.T, lies - bore, atol=1e-10)
 
 
 def test_bores_are_those_of_all_load_cases_in_every_process():
@@ -188,10 +216,40 @@ def test_bores_are_those_of_all_load_cases_in_every_process():
     assert json.loads(told.stdout) == ours
 
 
+def test_bores_follow_what_files_hold_and_not_their_names(tmp_path):
+    path, found = tmp_path / "loads.h5", []
+    for seed in (1, 2):
+        cube_file(path, wind_speeds=(8.0,), seeds=(seed,), steps=200)
+        scene = scene_of(alignment="mean", loads={"files": [str(path)]})
+        found.append(bores.bores(scene)["N"])
+    assert np.linalg.norm(found[1] - found[0]) > 1e-3 * np.linalg.norm(found[0]) > 0.0
+
+
+def test_without_tilt_each_shaft_lies_straight_in_its_own_bore():
+    """So a plan that asks what tilt is worth aligns each bearing by itself."""
+    own = {"own": {"N2": {"alignment": [1e-4, -2e-5]}}, "rung": "reduced"}
+    scene = scene_of(alignment="mean", **own)
+    found, _ = at_usual_loads(scene)
+    straight = TILT.muted(scene)({"shaft": found})["shaft"]
+    assert not straight["moment"].any()
+    for name in ("N", "N2"):
+        turned = found["alignment"].sel(bearing=name)
+        assert np.any(turned)
+        np.testing.assert_allclose(straight["tilt"].sel(bearing=name) - turned, 0.0, atol=1e-10)
+
+
 @pytest.mark.parametrize("word", ["median", [1e-4], "0.0"])
 def test_another_word_for_the_alignment_is_refused_by_its_name(word):
     with pytest.raises(InputError, match="alignment"):
         scene_of(alignment=word)
+
+
+@pytest.mark.parametrize("rung", ["map", "chart"])
+def test_films_that_know_no_tilt_may_align_themselves_beside_a_key_for_tilt(rung):
+    film = {"rung": rung, "cavitation": {"kind": "reynolds", "cavitation_pressure": 5e5}}
+    assert not scene_of(self_aligning=True, **film).journal.at("N").tilt
+    with pytest.raises(InputError, match="tilt"):
+        scene_of(**film)
 
 
 def test_a_shaft_lies_straight_in_bearings_that_align_themselves():

@@ -224,9 +224,10 @@ class Journal(Section, BaseModel):
     @model_validator(mode="after")
     def _a_model_that_knows_the_film(self) -> Self:
         verb: Verb = "in_motion" if self.in_motion else "at_rest"
-        line = Line(moment=np.zeros((1, 2))) if self.tilt else Line()
         journals: list[Journal] = [self, *(self.at(place) for place in self.own)]
         for journal in journals:
+            tilts = self.tilt and not journal.self_aligning
+            line = Line(moment=np.zeros((1, 2))) if tilts else Line()
             why = why_not(verb, journal.film_model, journal.geometry, line)
             if why is not None:
                 raise ValueError(why)

@@ -204,6 +204,12 @@ class Toleranced:
                     "beam, knows it; give its suspension a beam"
                 )
 
+    def _no_number(self, place: str, key: str) -> str:
+        film = self.journal.at(place) if place in self.journal.bearings else None
+        if key == ALIGNMENT and film is not None and film.alignment == "mean":
+            return 'its bore has alignment = "mean"; a tolerance is about a turn in rad'
+        return "no bearing there has such a number"
+
     def is_turned(self, place: str) -> bool:
         """Whether the bore of a journal bearing is, or may be, out of line with its housing."""
         told = any(key.split(".")[0] == ALIGNMENT for key in self.tolerances.get(place, {}))
@@ -226,7 +232,7 @@ class Toleranced:
             parts = {**thrust.bearings, place: pads}
             update["thrust"] = thrust.model_copy(update={"bearings": parts})
         if not update:
-            raise InputError("no bearing there has such a number")
+            raise InputError(self._no_number(place, path[0]))
         return replace(self, **update)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TypedDict
 
 import numpy as np
+import xarray as xr
 
 from loadflow.data import gains
 from loadflow.journal import Turbulence
@@ -150,11 +151,12 @@ def _tilt(at: Situation) -> Sizes:
     shaft that films are fed back to also tilts in their clearances (`closed_ends`).
     """
     scene, found = at.scene, []
-    geometry = scene.journal.geometry
     floats = closed_ends(at) if floats_in_films(scene.shaft, scene.journal) else {}
     for name, film in at.films.items():
         if name not in scene.journal.tilting:
             continue
+        own = scene.journal.at(name)
+        geometry = own.geometry
         concept = next(c for c in scene.shaft.concepts if name in c.bearings)
         span = max(np.ptp(concept.positions), concept.positions[0])
         beam = concept.beam
@@ -166,7 +168,7 @@ def _tilt(at: Situation) -> Sizes:
         load = at.bearings[name]
         moment = load.radial * concept.positions[0] + load.turn
         bent = moment * span / (3.0 * STEEL * section.inertia)
-        slope = bent + turn_of_bore(scene.journal.at(name))
+        slope = bent + turn_of_bore(own)
         share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
         most = min(float(np.nanmax(share)) + floats.get(name, 0.0), 1.0)
         found.append(
@@ -187,7 +189,16 @@ def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
     """
     if scene.journal.rung != "reduced" or scene.shaft.coupled:
         return None
-    return lambda given: {**given, "shaft": aligned(scene.journal, given["shaft"])}
+    return lambda given: {**given, "shaft": _all_aligned(scene.journal, given["shaft"])}
+
+
+def _all_aligned(journal: Journal, shaft: xr.Dataset) -> xr.Dataset:
+    """Loads of all bearings, with the shaft straight along the bores of those of the scene."""
+    parts = []
+    for name in shaft["bearing"].values:
+        one = shaft.sel(bearing=name)
+        parts.append(aligned(journal.at(name), one) if name in journal.bearings else one)
+    return xr.concat(parts, "bearing", coords="different", compat="equals")
 
 
 TILT = Effect(

@@ -365,7 +365,7 @@ def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[st
         concept: Concept = next(c for c in scene.shaft.concepts if name in c.bearings)
         wide = 2.0 * collar.geometry.inner_radius
         beam = concept.beam or Beam((ShaftSection(wide, HOLLOW * wide),))
-        bent = replace(concept, beam=beam.on_rigid_bearings())
+        bent = replace(concept, beam=beam.free_in_films().on_rigid_bearings())
         loads = bearing_loads(bent, force, moment, tilt=tilt).sel(bearing=name)
         found[name] = float(np.hypot(*to_film(loads["tilt"].transpose(..., "axis").values).T).max())
     return found
