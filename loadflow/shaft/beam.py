@@ -244,11 +244,13 @@ class Beam:
         As films that give way under a moment let it; rigid bearings that take one would clamp it.
         A single bearing holds the shaft by its moment alone, and is rigid against it, too.
         """
-        free = {"stiffness": "given"}
-        if len(self.supports) > 1:
-            free |= {"takes_moment": False, "housing_tilt": None}
+        if len(self.supports) == 1:
+            return self.on_rigid_bearings()
         supports = tuple(
-            replace(one, **free) if one.stiffness == "journal" else one for one in self.supports
+            replace(one, stiffness="given", takes_moment=False, housing_tilt=None)
+            if one.stiffness == "journal"
+            else one
+            for one in self.supports
         )
         return replace(self, supports=supports)
 

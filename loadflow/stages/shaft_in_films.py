@@ -255,7 +255,7 @@ def _given(shaft: ShaftInFilms, bore: Floats, count: int) -> dict[str, Floats]:
     The tilt is that against bores which are turned by `bore` (2, 2), rad.
     """
     none = np.zeros((4, count))
-    motion = shaft.motion(none, none, np.ones(count, dtype=bool), 0.0)
+    motion = shaft.motion(none, none, np.ones(count, dtype=bool), Convergence(True, 0.0, 0))
     return {
         "force": _film(shaft.force(none)),
         "tilt": _film(shaft.tilt(none, none)) - bore,
