@@ -68,11 +68,6 @@ def bores(scene: Scene) -> dict[str, Floats]:
     return {name: found.get(name, np.zeros(3)) for name in stated}
 
 
-def follow_the_shaft(scene: Scene) -> list[str]:
-    """Journal bearings whose bores are aligned with the shaft at its usual load."""
-    return [name for name in scene.journal.tilting if scene.journal.at(name).alignment == "mean"]
-
-
 def turned_bores(scene: Scene) -> list[str]:
     """Journal bearings whose bores are turned, as stated or as they follow the shaft."""
     journal = scene.journal
