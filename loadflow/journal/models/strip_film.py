@@ -104,6 +104,10 @@ class StripFilm(Temperatures):
             self._expansion = RingExpansion(heat, self.columns, units.radius)
         self.thicken(self.state(None))
 
+    @property
+    def way(self) -> None:
+        """None: its columns go all round, those of grooves between segments among them."""
+
     def thicken(self, state: Array) -> None:
         """Have the viscosity and the growth of the temperatures `state`, in units of the film."""
         across, growth = self._at_state(state)
