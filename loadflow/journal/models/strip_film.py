@@ -105,6 +105,11 @@ class StripFilm(Temperatures):
         self.thicken(self.state(None))
 
     @property
+    def whole_z(self) -> Array:
+        """Places of the strips across the whole width, shaft radii."""
+        return np.append(-self.z[::-1], self.z) if self.mirrored else self.z
+
+    @property
     def way(self) -> None:
         """None: its columns go all round, those of grooves between segments among them."""
 
