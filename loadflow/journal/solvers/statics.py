@@ -223,31 +223,40 @@ class Statics:
     ) -> Solution:
         """Film at a given `place`; pads take the tilt without moment and follow the `velocity`.
 
-        Raises
-        ------
-        loadflow.errors.InputError
-            The shaft touches the bore.
+        Errors as of `apart`.
         """
         film, gap = self.film, self.gap
         film.relax()
         film.set_speed(omega)
-        position, moving = self._held(index), np.zeros(gap.size)
-        position[:2], moving[:2] = place, velocity
-        position = gap.lifted(position, omega)
+        position, moving = self.apart(index, place, omega, name), np.zeros(gap.size)
+        moving[:2] = velocity
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if film.elastic:
             return self._checked(solve_by_approach(film, position, moving, *limits))
-        if not gap.narrowest(position) > 0.0:
-            touch = "the shaft touches the bore"
-            why = touch if film.contact is None else f"{touch} beyond the law of contact"
-            raise InputError(
-                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
-                + narrowest_place(self.bearing, gap, position)
-            )
         if not gap.pads.size:
             return self._checked(solve_film(film, film.start(), position, moving, *limits))
         pads = self._on_pads(gap.converging(position, omega))
         return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
+
+    def apart(self, index: int, place: Array, omega: float, name: str = "eccentricity") -> Array:
+        """Position (m,) at a given `place` of a shaft that does not touch the bore.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            It touches the bore, in a shell that does not give way.
+        """
+        position = self._held(index)
+        position[:2] = place
+        position = self.gap.lifted(position, omega)
+        if not (self.film.elastic or self.gap.narrowest(position) > 0.0):
+            touch = "the shaft touches the bore"
+            why = touch if self.film.contact is None else f"{touch} beyond the law of contact"
+            raise InputError(
+                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
+                + narrowest_place(self.bearing, self.gap, position)
+            )
+        return position
 
     def settled(self, index: int, load: Array, omega: float, control: Limits) -> Solution:
         """Equilibrium on this mesh, by way of that on one that follows the gap."""
