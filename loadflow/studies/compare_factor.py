@@ -12,6 +12,7 @@ import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
 from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_seeds import Draw
 
@@ -23,6 +24,9 @@ WIDEST = 16.0
 
 LOADS, LINE = ("force", "moment"), ("tilt", "curvature")
 """What acts on a bearing, and how the shaft lies in it."""
+
+CLEARANCE_TILT = "clearance_tilt"
+"""Part of the tilt of a shaft that it has by its places in the films of its journal bearings."""
 
 NEVER = 1.05
 """Over the least factor that is asked: with less, the limit was not reached."""
@@ -145,19 +149,51 @@ def reduced_samples(path: Path, place: str) -> xr.Dataset:
     return read_variables(path, ("force", "moment", "speed", "weight", "time"), place)
 
 
-def series_of(folder: Path, case: str, place: str) -> xr.Dataset:
+def series_of(scene: Scene, folder: Path, case: str, place: str) -> xr.Dataset:
     """What acts on a bearing through a case, and how the shaft lies in it.
 
     `time`, `speed` (sample), `force`, `moment` and, of a shaft that bends, `tilt`, `curvature`
-    (sample, axis), and `alignment` (axis) of a bore that follows it, in the frame of the cube.
+    (sample, axis), and `alignment` (axis) of a bore that follows it, in the frame of the cube; of
+    one that films hold `clearance_tilt` (sample, axis), too.
     """
     speed = read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"]
-    names = (*LOADS, *LINE, "alignment")
-    shaft = read_variables(folder / "shaft" / f"{case}.h5", names).sel(bearing=place)
-    known = [name for name in names if name in shaft and bool(shaft[name].notnull().all())]
+    names = (*LOADS, *LINE, "alignment", "displacement")
+    shaft = at_place(scene, read_variables(folder / "shaft" / f"{case}.h5", names), place)
+    known = [
+        name
+        for name in (*LOADS, *LINE, "alignment", CLEARANCE_TILT)
+        if name in shaft and bool(shaft[name].notnull().all())
+    ]
     series = shaft[known].assign(speed=("time", speed.values)).rename(time="sample")
     time = speed["time"].values.astype(float)
     return series.drop_vars("sample", errors="ignore").assign(time=("sample", time))
+
+
+def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
+    """Loads and shaft of one bearing, with `clearance_tilt` where films hold the shaft.
+
+    That is the slope of the straight line through the places of the shaft in its films. What
+    housings and frame under these give way counts with it.
+    """
+    own = shaft.sel(bearing=place)
+    concept = next((one for one in scene.shaft.concepts if place in one.bearings), None)
+    if concept is None or len(concept.bearings) != 2 or "displacement" not in shaft:
+        return own
+    films = [
+        (sign, name)
+        for sign, name in zip((-1.0, 1.0), concept.bearings)
+        if name in scene.shaft.coupled and scene.shaft.coupled[name].stiffness == "journal"
+    ]
+    if not films:
+        return own
+    first, last = concept.positions
+    moved = sum(sign * shaft["displacement"].sel(bearing=name) for sign, name in films)
+    slope = moved.drop_vars("bearing", errors="ignore") / (last - first)
+    # what moves along y turns about z, what moves along z about −y
+    turned = xr.concat(
+        [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")], "axis"
+    )
+    return own.assign({CLEARANCE_TILT: turned.assign_coords(axis=shaft["axis"])})
 
 
 def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
@@ -167,6 +203,13 @@ def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
 
 
 def grown(samples: xr.Dataset, factor: float) -> xr.Dataset:
-    """Samples with a factor on their loads, which the line of the shaft under them follows."""
+    """Samples with a factor on their loads, which the bend of the shaft under them follows.
+
+    How bores are turned stays, and so does the tilt that a shaft has by its places in its films,
+    which their clearances bound.
+    """
     names = [name for name in LOADS + LINE if name in samples]
-    return samples.assign({name: factor * samples[name] for name in names})
+    more = samples.assign({name: factor * samples[name] for name in names})
+    if "tilt" not in samples or CLEARANCE_TILT not in samples:
+        return more
+    return more.assign(tilt=more["tilt"] - (factor - 1.0) * samples[CLEARANCE_TILT])

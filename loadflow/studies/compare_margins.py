@@ -126,7 +126,7 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        sample = at_time(series_of(folder, case, place), time)
+        sample = at_time(series_of(scene, folder, case, place), time)
         value = cache(partial(_film_value, fast_journal(stated), sample, answer))
         usual = value(1.0, 1.0)
         if usual > 0:

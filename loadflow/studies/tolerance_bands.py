@@ -286,7 +286,7 @@ def _of_pads(
     for place, bearing in thrust.bearings.items():
         samples = _samples_of_pads(thrust, bearing, spectrum[place].to_dataset())
         span = spans.get(place)
-        answer = pad_films(bearing, samples, span=span)
+        answer = pad_films(bearing, against_bore(samples), span=span)
         weight = samples["weight"].values * np.isfinite(answer.friction_power)
         power += float(spectrum[place]["weight"].sum()) * (
             _mean(answer.friction_power, weight) / max(weight.sum(), 1e-300)
@@ -314,7 +314,7 @@ def _of_pads(
 
 
 def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> xr.Dataset:
-    """Those of a spectrum in which a bearing of pads turns, tilted as the shaft is in them.
+    """Those of a spectrum in which a bearing of pads turns, with tilt of shaft and bore in them.
 
     Of one without tables they are few: spread over the loads that last, and the hardest.
     """
@@ -331,23 +331,28 @@ def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> 
         order = turning[lasting][np.argsort(pressed[lasting])]
         spread = order[np.linspace(0, order.size - 1, PADS).astype(int)]
         turning = np.unique([*spread, turning[np.argmax(pressed)]])
-    held = against_bore(samples)
-    tilt = samples.get("pad_tilt", held.get("tilt") if thrust.tilt else None)
-    some = samples.drop_vars(("tilt", "pad_tilt"), errors="ignore")
-    if tilt is not None and bearing.kind == "thrust" and not bearing.self_aligning:
-        some = some.assign(tilt=tilt)
+    askew = "pad_tilt" in samples
+    lines = {name: samples[f"pad_{name}" if askew else name]
+             for name in ("tilt", "alignment") if askew or name in samples}  # fmt: skip
+    some = samples.drop_vars(("tilt", "alignment"), errors="ignore")
+    if (askew or thrust.tilt) and bearing.kind == "thrust" and not bearing.self_aligning:
+        some = some.assign(lines)
     return some.isel(sample=turning)
 
 
 def _margins_of_pads(
     bearing: AnyAxial, some: xr.Dataset, answer: PadFilms, span: tuple[float, float] | None
 ) -> list[float]:
-    """Factors on the load to the limits of film and pressure; 0 where a film is missing."""
+    """Factors on the load to the limits of film and pressure; 0 where a film is missing.
+
+    How bores are turned, and by how much they are misaligned, does not grow with the load.
+    """
     if not answer.carried.all():
         return [0.0]
     film, pressure = answer.minimum_film, answer.maximum_pressure
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
-    heavier = pad_films(bearing, grown(some.isel(sample=[thin, hard]), HEAVIER), span=span)
+    under = against_bore(grown(some.isel(sample=[thin, hard]), HEAVIER))
+    heavier = pad_films(bearing, under, span=span)
     limits = bearing.limits
     allowed = limits.pressure_at(limits.material[0][0])
     return load_margins(

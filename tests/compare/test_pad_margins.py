@@ -10,13 +10,15 @@ from loadflow.journal import row_table
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
+from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import solved
 from loadflow.studies.compare_factor import WIDEST, film_factors, grown, pressure_factor
 from loadflow.studies.compare_pads import value_of
-from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.deviations import Built, _tilted, tolerances_of
 from loadflow.studies.pad_films import pad_films
-from loadflow.studies.tolerance_bands import cheap_numbers
+from loadflow.studies.tolerance_bands import _samples_of_pads, cheap_numbers
 
 LANDS = {"pads": 6, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.9, "taper": 1e-4}
 
@@ -73,6 +75,41 @@ def test_the_tilt_of_a_shaft_grows_with_its_loads():
     both = grown(series(), 2.0)
     assert both["tilt"].values == pytest.approx(2.0 * series()["tilt"].values)
     assert both["force"].values == pytest.approx(2.0 * series()["force"].values)
+
+
+@pytest.mark.parametrize("moving", [True, False])
+def test_bores_do_not_turn_further_under_more_load(moving):
+    """A shaft of 60 µrad in a bore of 50 has 10 of them, and 70 under twice the load."""
+    bearing, along = collar().bearings["N2"], xr.DataArray([0.0, 1e-6, 0.0], dims="axis")
+    plain = series(6).drop_vars("tilt")
+    tilted = plain.assign(tilt=xr.zeros_like(plain["force"]) + 60.0 * along)
+    every = np.ones(6, bool)
+
+    def film(samples, load):
+        return value_of(bearing, samples, every, moving, "minimum_film", load, 1.0)
+
+    found = film(tilted.assign(alignment=50.0 * along), 2.0)
+    assert found == pytest.approx(film(tilted.assign(tilt=tilted["tilt"] * 35.0 / 60.0), 2.0))
+    assert found < 0.99 * film(tilted.assign(tilt=tilted["tilt"] * 10.0 / 60.0), 2.0)
+
+
+def test_an_angle_of_a_tolerance_does_not_grow_with_the_load():
+    """Of a collar beside journal bearings, whether or not these know how the shaft lies."""
+    own = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
+    oil = {"viscosity": 0.3}
+    samples = series(3).assign(curvature=xr.zeros_like(series(3)["force"]))
+    bore = xr.DataArray([0.0, 5e-6, 0.0], dims="axis", coords={"axis": ["x", "y", "z"]})
+    for lying in (True, False):
+        films = Journal(bearings=["N2"], geometry=own, lubricant=oil, tilt=lying)
+        tree = xr.DataTree.from_dict({"N2": samples.assign(alignment=bore)})
+        candidate = Candidate(journal=films, thrust=collar())
+        stated = Built(candidate, Friction(), tree, spans={"N2": None})
+        askew = _tilted(stated, (3e-5, 0.0), lying)["N2"].to_dataset()
+        pads = _samples_of_pads(candidate.thrust, candidate.thrust.bearings["N2"], askew)
+        for load in (1.0, 2.0):
+            found = against_bore(grown(pads, load))["tilt"].transpose("sample", "axis").values
+            wanted = load * samples["tilt"].values + [0.0, 2.5e-5, 0.0]
+            assert found == pytest.approx(wanted)
 
 
 def test_a_film_that_is_lost_under_more_load_counts_as_none():
