@@ -9,8 +9,10 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from scipy.optimize import brentq
 
 from loadflow.cube.hdf5 import read_variables
+from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
@@ -33,6 +35,9 @@ NEVER = 1.05
 
 _HALVINGS = 9
 _CLOSE = 2e-3  # logarithm of a factor: less than films of these models are good to
+_OUTWARD = 4  # steps to where a limit should be, beyond which the widest factor is asked
+_STEPS = 40  # of the root finder; 16 in all are the most that curved reserves took
+_NONE = 50.0  # logarithm of a reserve that is as good as none
 
 
 @dataclass(frozen=True)
@@ -57,6 +62,8 @@ class Margin:
         Result and quantity whose error by models the factor has.
     power : float
         Of the load that this quantity follows.
+    uncounted : str
+        Limits whose factor has no answer, and why.
     """
 
     factor: float
@@ -70,6 +77,7 @@ class Margin:
     time: float = math.nan
     models: tuple[str, str] = ("", "")
     power: float = math.nan
+    uncounted: str = ""
 
 
 def largest_factor(holds: Callable[[float], bool]) -> float:
@@ -98,44 +106,53 @@ def pressure_factor(value: Callable[[float, float], float], limit: float) -> flo
 
 
 def _crossing(reserve: Callable[[float], float]) -> float:
-    """Factor to `_CLOSE` at which a reserve, which falls about as a power of it, is used up.
+    """Factor to `_CLOSE` at which a reserve, which falls with it, is used up, within `WIDEST`.
 
-    By secants through the logarithm of the factor between bounds, halved where there is no answer,
-    which is none of a factor that is too large; within `WIDEST`.
+    On the side where some is left; there is none without an answer, which is that of a factor that
+    is too large. Steps by the power of the factor that the reserve follows lead to bounds around
+    it, and Brent's method in its logarithm between these.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        Not found in `_STEPS`.
     """
+    seen: dict[float, float] = {}
 
     def known(x: float) -> float:
-        try:
-            found = reserve(math.exp(x))
-        except ValueError:  # logarithm of what is not there
-            return -math.inf
-        return found if math.isfinite(found) else -math.inf
+        if x not in seen:
+            try:
+                found = reserve(math.exp(x))
+            except ValueError:  # logarithm of what is not there
+                found = -math.inf
+            seen[x] = found if math.isfinite(found) else -math.inf
+        return seen[x]
 
     widest = math.log(WIDEST)
-    (low, high), (below, above) = (-widest, widest), (math.nan, math.nan)
-    x, left, power = 0.0, known(0.0), 1.0
-    while True:
-        if left >= 0:
-            low, below = x, left
-        else:
-            high, above = x, left
-        if high - low < _CLOSE or low == widest or high == -widest:
-            return math.exp(low)
-        steep = (below - above) / (high - low)
-        if math.isfinite(steep) and steep > 0:
-            x = low + below / steep
-            inner = min(0.1 * (high - low), 0.4 * _CLOSE)  # the bounds close in from both sides
-            x = min(max(x, low + inner), high - inner)
-        elif math.isfinite(left) and math.isnan(steep):  # one bound is not known yet: beyond it
-            step = 1.2 * left / power + math.copysign(_CLOSE, left)
-            seen, (x, before) = x, (min(max(x + step, -widest), widest), left)
-            left = known(x)
-            if math.isfinite(left) and x != seen and (before - left) / (x - seen) > 0:
-                power = (before - left) / (x - seen)
-            continue
-        else:
-            x = 0.5 * (low + high)
+    low, high, x, power = -widest, widest, 0.0, 1.0
+    for _ in range(_OUTWARD):
         left = known(x)
+        low, high = (x, high) if left >= 0 else (low, x)
+        if {low, high} <= seen.keys() or not math.isfinite(left):
+            break
+        before, step = x, 1.2 * left / power + (_CLOSE if left >= 0 else -_CLOSE)
+        x = min(max(x + step, -widest), widest)
+        steep = (left - known(x)) / (x - before)
+        power = steep if 0 < steep < math.inf else power
+    if known(high) >= 0:
+        return WIDEST
+    if known(low) < 0:
+        return 1.0 / WIDEST
+    while high - low > _CLOSE and not math.isfinite(known(high)):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if known(middle) >= 0 else (low, middle)
+    if high - low <= _CLOSE:
+        return math.exp(low)
+    try:
+        root = brentq(lambda x: max(known(x), -_NONE), low, high, xtol=_CLOSE, maxiter=_STEPS)
+    except RuntimeError as error:
+        raise SolverError(f"no factor on load or viscosity to a limit of films: {error}") from error
+    return math.exp(max(x for x, left in seen.items() if left >= 0 and x <= root))
 
 
 def oil_told(bearing: Journal | AnyAxial, factor: float = 1.0) -> str:

@@ -63,10 +63,17 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
         samples = samples if moving else at_time(samples, time)
         if not lies(scene, bearing, samples):
             samples = samples.drop_vars("tilt", errors="ignore")
-        known = pad_films(bearing, against_bore(samples), moving, span_of(bearing)).carried
+        told = f"{what} of the {bearing.kind} bearing in {place}"
+        known, why = np.zeros(1, bool), "solved again, its film carries nowhere"
+        try:
+            known = pad_films(bearing, against_bore(samples), moving, span_of(bearing)).carried
+        except SolverError as error:
+            why = str(error)
+        if not known.any():
+            yield Margin(math.nan, place, case, uncounted=f"{told} ({case}): {why}")
+            continue
         value = cache(partial(value_of, bearing, samples, known, moving, field))
         usual, seen = value(1.0, 1.0), float(table[name].values[worst])
-        told = f"{what} of the {bearing.kind} bearing in {place}"
         allowed = limit * usual / seen  # what rungs differ by does not pass for a reserve
         if abs(usual / seen - 1.0) > _TOLD:
             told += f" (solved again {100 * (usual / seen - 1.0):+.1f} % off that of the run)"

@@ -225,6 +225,10 @@ def test_wear_has_the_error_of_its_coefficient_and_of_the_films_that_it_begins_i
     some, more = (told(**{"minimum film": error}).error for error in (0.1, 0.3))
     assert BATCHES - 1 < some < more
     assert with_error(None, replace(worn, value=0.0)).value == 0
+    monkeypatch.setattr(Rubbing, "energy", lambda self, options: 0.0)
+    nothing = told(**{"minimum film": 0.1})
+    assert nothing.error == BATCHES - 1
+    assert "error of films not counted" in nothing.note
 
 
 def test_a_band_ends_where_a_quantity_cannot_go_on():
