@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
-from loadflow.planning.asked import Asked, changes, tried, without
+from loadflow.planning.asked import Asked, changes, resting, tried, without
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import chosen_models, needed_stages
@@ -332,6 +332,7 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
     inputs: dict[str, Any] = dict(given or {})
+    shafts = {resting(scene): inputs["shaft"]} if "shaft" in inputs else {}
     for model, probe in PROBES.items():
         ours = [effect for effect in effects if effect.probed == model]
         if not ours:
@@ -344,11 +345,12 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             for name in probe.reads:
                 if name not in inputs:
                     inputs[name] = STAGES[name].run(scene, case, inputs)
+                    shafts |= {resting(scene): inputs[name]} if name == "shaft" else {}
         except SolverError:
             break  # the run itself says so of this case
         if not probe.can_answer(case, inputs):
             continue
-        asked = Asked(probe, scene, case, inputs)
+        asked = Asked(probe, case, inputs, shafts)
         answers = asked.answers
 
         scene, best = _all_on(scene, ours, answers, refused)
