@@ -20,7 +20,7 @@ from loadflow.planning.accuracy import contributions, surely_small
 from loadflow.planning.asked import Asked, changes, resting, tried, without
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
-from loadflow.planning.plan import chosen_models, needed_stages
+from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -38,10 +38,6 @@ SOLVED = 1.0
 
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
-
-
-LITTLE = 0.02
-"""Share of the time of a run that an effect may take to be kept unasked: to ask takes longer."""
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of
-from loadflow.studies.load_spectrum import SLOWEST
+from loadflow.studies.load_spectrum import STANDING_SHARE
 from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
 from loadflow.studies.wear_bands import rubbing_of
 
@@ -320,7 +320,7 @@ def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> 
     """
     speed = np.abs(samples["speed"].values)
     running = samples["running"].values.astype(bool)
-    turning = np.flatnonzero(running & (speed > SLOWEST * speed.max(initial=0.0)))
+    turning = np.flatnonzero(running & (speed > STANDING_SHARE * speed.max(initial=0.0)))
     if not tabulated(bearing):
         force, moment = (
             to_rolling(samples[name].transpose("sample", "axis").values)
