@@ -196,16 +196,17 @@ def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
     concept = next((one for one in scene.shaft.concepts if place in one.bearings), None)
     if concept is None or len(concept.bearings) != 2 or "displacement" not in shaft:
         return own
-    films = [
-        (sign, name)
-        for sign, name in zip((-1.0, 1.0), concept.bearings)
-        if name in scene.shaft.coupled and scene.shaft.coupled[name].stiffness == "journal"
-    ]
-    if not films:
-        return own
     first, last = concept.positions
-    moved = sum(sign * shaft["displacement"].sel(bearing=name) for sign, name in films)
-    slope = moved.drop_vars("bearing", errors="ignore") / (last - first)
+    held = [
+        name in scene.shaft.coupled and scene.shaft.coupled[name].stiffness == "journal"
+        for name in concept.bearings
+    ]
+    if not any(held):
+        return own
+    by_place = np.array([-1.0, 1.0]) * held / (last - first)
+    ends = {"bearing": [*concept.bearings]}
+    moved = shaft["displacement"].sel(ends) * xr.DataArray(by_place, ends, ["bearing"])
+    slope = moved.sum("bearing", skipna=False)
     # what moves along y turns about z, what moves along z about −y
     turned = xr.concat(
         [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")], "axis"
