@@ -333,7 +333,7 @@ def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
             pad_tilt=samples["tilt"] if follows else none,
             pad_alignment=(bore if follows else 0.0) - extra,
         )
-    return _tree(built.spectrum, groups)
+    return with_places(built.spectrum, groups)
 
 
 def _pushed(built: Built, rolling: Rolling, way: tuple[float, float]) -> xr.DataTree:
@@ -352,11 +352,12 @@ def _pushed(built: Built, rolling: Rolling, way: tuple[float, float]) -> xr.Data
         extra = np.zeros_like(moment)
         extra[:, 1:] = np.linalg.pinv(free) @ np.array(way)
         groups[place] = samples.assign(moment=(("sample", "axis"), moment + extra))
-    return _tree(built.spectrum, groups)
+    return with_places(built.spectrum, groups)
 
 
-def _tree(spectrum: xr.DataTree, groups: dict[str, xr.Dataset]) -> xr.DataTree:
+def with_places(spectrum: xr.DataTree, groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
+    """A spectrum with other samples of some places."""
     rest_of = {name: node.to_dataset() for name, node in spectrum.children.items()}
-    tree = xr.DataTree.from_dict(rest_of | groups)
+    tree = xr.DataTree.from_dict(rest_of | dict(groups))
     tree.attrs.update(spectrum.attrs)
     return tree

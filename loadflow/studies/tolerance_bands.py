@@ -16,8 +16,9 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
-from loadflow.stages.bores import against_bore
+from loadflow.stages.bores import against_bore, follow_the_shaft, following
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
@@ -37,7 +38,7 @@ from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import judge_design
-from loadflow.studies.deviations import Built, Tolerance, tolerances_of
+from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
 from loadflow.studies.load_spectrum import STANDING_SHARE
 from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
 from loadflow.studies.wear_bands import rubbing_of
@@ -78,7 +79,7 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
         Its `change` names tolerances that break a limit by themselves.
     """
     rubs = rubbing_of(run.scene, run.folder, one.numbers["wear"])
-    built = Built(_bearings(run), run.scene.friction, spectrum, rubs)
+    built = Built(_bearings(run), run.scene.friction, _in_bores(run.scene, spectrum), rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -97,6 +98,12 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
     told = f"tolerance of {', '.join(breaking)} alone" if breaking else ""
     change = "; ".join(part for part in (one.change, told) if part)
     return replace(one, numbers=numbers, change=change)
+
+
+def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:
+    """The spectrum with the `alignment` of the bores that follow the shaft, in its mean."""
+    places = (place for place in follow_the_shaft(scene) if place in spectrum.children)
+    return with_places(spectrum, {p: following(spectrum[p].to_dataset()) for p in places})
 
 
 def _bearings(run: Finished) -> Candidate:

@@ -17,9 +17,9 @@ from loadflow.studies import wear_bands
 from loadflow.studies.band_films import deciding_of, films_of
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_result import Number
-from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.deviations import Built, tolerances_of, with_places
 from loadflow.studies.grown_films import fast_journal
-from loadflow.studies.tolerance_bands import Known, _as_share, _banded, cheap_numbers
+from loadflow.studies.tolerance_bands import Known, _as_share, _banded, _in_bores, cheap_numbers
 from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
@@ -180,6 +180,24 @@ def test_a_shaft_that_lies_askew_thins_the_film_and_0_leaves_it():
     assert len(films) == 4
     assert max(films) < stated
     assert stated == pytest.approx(cheap_numbers(journal())["minimum_film"], rel=0.02)
+
+
+def test_bands_of_bores_that_follow_the_shaft_know_how_they_are_turned():
+    """A shaft that is always tilted alike lies straight in them."""
+    data = {"bearings": ["N", "N2"], "geometry": MEASURES, "lubricant": {"viscosity": 0.3}}
+    data |= {"tilt": True, "alignment": "mean"}
+    scene = make_scene({"name": "t", "shaft": {"two_point": {}}, "journal": data})
+    lying = spectrum(["N", "N2"])
+    for place, tilt in (("N", 1e-4), ("N2", -5e-5)):
+        none = xr.zeros_like(lying[place].to_dataset()["force"])
+        turned = none + xr.DataArray([0.0, tilt, tilt], dims="axis")
+        lying = with_places(lying, {place: lying[place].to_dataset().assign(
+            tilt=turned, curvature=none)})  # fmt: skip
+    stated = journal(tilt=True, alignment="mean")
+    followed = cheap_numbers(replace(stated, spectrum=_in_bores(scene, lying)))
+    straight = cheap_numbers(replace(journal(tilt=False), spectrum=lying))
+    for name in ("minimum_film", "film_pressure"):
+        assert followed[name] == pytest.approx(straight[name], rel=1e-3)
 
 
 def starting():
