@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
@@ -162,7 +163,10 @@ def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, o
     under = grown(sample, load)
     force = under["force"].transpose("sample", "axis").values.astype(float)
     lying = shaft_line(options, under)
-    answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    try:
+        answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    except SolverError:  # a shaft that is tilted by more than the bore lets it
+        return math.nan
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
 
 
