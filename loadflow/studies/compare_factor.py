@@ -17,6 +17,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_seeds import Draw
+from loadflow.tribology.film import short_bearing
 
 SAMPLES = 40
 """Samples of each case that are looked at again, the extremes among them."""
@@ -29,6 +30,9 @@ LOADS, LINE = ("force", "moment"), ("tilt", "curvature")
 
 CLEARANCE_TILT = "clearance_tilt"
 """Part of the tilt of a shaft that it has by its places in the films of its journal bearings."""
+
+_RATIOS = 1.0 - np.geomspace(1.0, 1e-4, 2001)  # eccentricity ratios, from 0
+_CARRIED = short_bearing(_RATIOS, 1.0)[0]  # Sommerfeld numbers there, which go with the load
 
 NEVER = 1.05
 """Over the least factor that is asked: with less, the limit was not reached."""
@@ -189,29 +193,28 @@ def series_of(scene: Scene, folder: Path, case: str, place: str) -> xr.Dataset:
 def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
     """Loads and shaft of one bearing, with `clearance_tilt` where films hold the shaft.
 
-    That is the slope of the straight line through the places of the shaft in its films. What
-    housings and frame under these give way counts with it.
+    By `film`: how far the place of the shaft there turns the straight line through both bearings,
+    and by how much it could at most, the coordinate `largest_tilt`. What housings and frame under
+    a film give way counts with it.
     """
     own = shaft.sel(bearing=place)
     concept = next((one for one in scene.shaft.concepts if place in one.bearings), None)
     if concept is None or len(concept.bearings) != 2 or "displacement" not in shaft:
         return own
-    first, last = concept.positions
-    held = [
-        name in scene.shaft.coupled and scene.shaft.coupled[name].stiffness == "journal"
-        for name in concept.bearings
-    ]
-    if not any(held):
+    distance = concept.positions[1] - concept.positions[0]
+    parts, largest = [], []
+    for name, along in zip(concept.bearings, (-distance, distance)):
+        support = scene.shaft.coupled.get(name)
+        if support is not None and support.stiffness == "journal":
+            slope = shaft["displacement"].sel(bearing=name, drop=True) / along
+            # what moves along y turns about z, what moves along z about −y
+            turned = [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")]
+            parts.append(xr.concat(turned, "axis").assign_coords(axis=shaft["axis"]))
+            largest.append(scene.journal.at(name).geometry.clearance / abs(distance))
+    if not parts:
         return own
-    by_place = np.array([-1.0, 1.0]) * held / (last - first)
-    ends = {"bearing": [*concept.bearings]}
-    moved = shaft["displacement"].sel(ends) * xr.DataArray(by_place, ends, ["bearing"])
-    slope = moved.sum("bearing", skipna=False)
-    # what moves along y turns about z, what moves along z about −y
-    turned = xr.concat(
-        [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")], "axis"
-    )
-    return own.assign({CLEARANCE_TILT: turned.assign_coords(axis=shaft["axis"])})
+    lies = xr.concat(parts, "film").assign_coords(largest_tilt=("film", largest))
+    return own.assign({CLEARANCE_TILT: lies})
 
 
 def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
@@ -223,11 +226,17 @@ def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
 def grown(samples: xr.Dataset, factor: float) -> xr.Dataset:
     """Samples with a factor on their loads, which the bend of the shaft under them follows.
 
-    How bores are turned stays, and so does the tilt that a shaft has by its places in its films,
-    which their clearances bound.
+    How bores are turned stays. Where films hold the shaft, its place in each of them moves out as
+    in the short bearing of [Ocvirk 1952] at rest, within the clearance.
     """
     names = [name for name in LOADS + LINE if name in samples]
     more = samples.assign({name: factor * samples[name] for name in names})
     if "tilt" not in samples or CLEARANCE_TILT not in samples:
         return more
-    return more.assign(tilt=more["tilt"] - (factor - 1.0) * samples[CLEARANCE_TILT])
+    lies = samples[CLEARANCE_TILT]
+    size = np.sqrt((lies**2).sum("axis"))
+    ratio = np.minimum(size / lies["largest_tilt"], _RATIOS[-1])
+    beyond = np.interp(factor * np.interp(ratio, _RATIOS, _CARRIED), _CARRIED, _RATIOS)
+    further = ratio.copy(data=beyond / np.maximum(ratio.values, _RATIOS[1])) - factor
+    tilt = more["tilt"] + (lies * further).sum("film")
+    return more.assign(tilt=tilt.transpose(*samples["tilt"].dims))

@@ -18,7 +18,6 @@ from loadflow.reduction.quasistatic import class_edges
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import moment_governs
-from loadflow.studies.compare_factor import CLEARANCE_TILT, at_place
 from loadflow.studies.run_lifetime import case_shares, energy_per_year
 from loadflow.wind.cases import LOAD_CASES, factor_of_maximum
 
@@ -40,13 +39,12 @@ VARIABLES = {
     "force": ("N", "force on the bearing"),
     "moment": ("N m", "moment on the bearing"),
     "tilt": ("rad", "tilt of the shaft in the bearing"),
-    CLEARANCE_TILT: ("rad", "part of the tilt by the places of the shaft in its films"),
     "curvature": ("1/m", "bend of the shaft in the bearing"),
     "hub_force": ("N", "force of the rotor on the shaft at the hub centre"),
     "hub_moment": ("N m", "moment of the rotor on the shaft about the hub centre"),
 }
 """What is known of each sample: units and meaning."""
-_OF_BEARING = ("force", "moment", "tilt", CLEARANCE_TILT, "curvature")
+_OF_BEARING = ("force", "moment", "tilt", "curvature")
 _OF_HUB = ("hub_force", "hub_moment")
 _VECTORS = _OF_BEARING + _OF_HUB
 
@@ -73,9 +71,9 @@ def load_spectrum(
     Returns
     -------
     xarray.DataTree
-        A group for each place: `force`, `moment` (sample, axis), N, N m, `tilt`, `curvature` of an
-        elastic shaft, `clearance_tilt` of one that films hold, and `hub_force`, `hub_moment`
-        meanwhile, in the frame of the cube; `speed`, rad/s, `weight`, whose sum is 1 or the
+        A group for each place: `force`, `moment` (sample, axis), N, N m, and `tilt`, `curvature` of
+        an elastic shaft, and `hub_force`, `hub_moment` meanwhile, in the frame of the cube;
+        `speed`, rad/s, `weight`, whose sum is 1 or the
         share of the time in which the shaft turns, `time`, `load_factor`, `running`, `ultimate`
         and, by load case, `load_per_speed` (case), the mean radial load over speed, N s/rad. The
         attribute `seconds` of the tree is the time in a year that all weights stand for.
@@ -114,8 +112,7 @@ def _of_place(
 ) -> xr.Dataset:
     """Samples of one bearing."""
     parts = [
-        _series(loads, at_place(scene, shaft, place), w)
-        for (_, loads, shaft), w in zip(rows, share)
+        _series(loads, shaft.sel(bearing=place), w) for (_, loads, shaft), w in zip(rows, share)
     ]
     whole = {
         name: np.concatenate([part[name] for part in parts])

@@ -18,7 +18,6 @@ from loadflow.scene.shaft import Shaft
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.shaft.options import Concept
 from loadflow.stages.bores import following
-from loadflow.studies.compare_factor import CLEARANCE_TILT
 
 Array = NDArray[np.float64]
 
@@ -158,7 +157,7 @@ class BentShaft:
                 more = xr.DataArray(bent, dims=("axis", "sample"))
                 known = xr.zeros_like(samples[name]) if self._floats else samples[name]
                 changed[name] = known + more
-            samples = samples.assign(changed).drop_vars(CLEARANCE_TILT, errors="ignore")
+            samples = samples.assign(changed)
         journal = candidate.journal
         if journal is None or place not in journal.bearings:
             return samples
