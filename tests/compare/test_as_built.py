@@ -15,7 +15,7 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies import wear_bands
 from loadflow.studies.band_films import deciding_of, films_of
-from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_margins import _film_value, lubrication
 from loadflow.studies.compare_result import Number
 from loadflow.studies.deviations import Built, tolerances_of, with_places
 from loadflow.studies.grown_films import fast_journal
@@ -198,6 +198,16 @@ def test_bands_of_bores_that_follow_the_shaft_know_how_they_are_turned():
     straight = cheap_numbers(replace(journal(tilt=False), spectrum=lying))
     for name in ("minimum_film", "film_pressure"):
         assert followed[name] == pytest.approx(straight[name], rel=1e-3)
+
+
+def test_a_shaft_that_is_tilted_by_more_than_its_bore_lets_it_has_no_film():
+    options = fast_journal(journal(tilt=True).candidate.journal.at("N"))
+    sample = spectrum(["N"])["N"].to_dataset().isel(sample=[0])
+    along = xr.DataArray([0.0, 1e-3, 0.0], dims="axis")
+    none = xr.zeros_like(sample["force"])
+    sample = sample.assign(tilt=none + along, curvature=none)
+    assert math.isnan(_film_value(options, sample, "minimum_film", 2.0, 1.0))
+    assert _film_value(options, sample, "minimum_film", 0.2, 1.0) > 0
 
 
 def starting():
