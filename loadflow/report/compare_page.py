@@ -66,12 +66,20 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         data=data,
         groups=groups.items(),
         silent=silent,
+        reasons=_reasons(groups),
         behind=behind.items(),
         sketch=sketch(data["shaft"]),
         verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
+
+
+def _reasons(groups: Mapping[str, list[Any]]) -> dict[str, int]:
+    """Why numbers lack an interval, an error or a band: each reason once, with its number."""
+    cells = (cell for rows in groups.values() for *_, own in rows for cell in own)
+    found = dict.fromkeys(why for cell in cells for _, why in cell.missing)
+    return {why: k for k, why in enumerate(found, 1)}
 
 
 def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:

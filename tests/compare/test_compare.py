@@ -170,7 +170,10 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     journal = by_name(found)["journal-cylindrical"].numbers
     assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
     page = found.page.read_text(encoding="utf-8")
-    assert re.search(r"<small>– by (seeds|models|tolerances): [^<]+</small>", page)
+    asked = re.findall(r"– by (?:seeds|models|tolerances) <a href=\"#(why-\d+)\" title=", page)
+    told = re.findall(r"<li id=\"(why-\d+)\">[^<]+</li>", page)
+    assert {*asked} == {*told}
+    assert len(told) == len({*told}) < len(asked)  # each reason once
 
 
 def test_rolling_bearings_are_asked_for_as_much_accuracy_as_where_nothing_is_said(cube):
