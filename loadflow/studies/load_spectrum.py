@@ -19,7 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import moment_governs
 from loadflow.studies.run_lifetime import case_shares, energy_per_year
-from loadflow.wind.cases import LOAD_CASES, factor_of_maximum
+from loadflow.wind.cases import LOAD_CASES, factor_of_maximum, stands_or_starts
 
 Floats = NDArray[np.float64]
 
@@ -160,7 +160,7 @@ def _series(loads: xr.Dataset, shaft: xr.Dataset, share: float) -> dict[str, Any
     alike: Mapping[str, Any] = {
         "weight": share / speed.size,
         "load_factor": factor_of_maximum(dlc),
-        "running": row is None or not row.stands_or_starts,
+        "running": not stands_or_starts(dlc),
         "ultimate": row is None or row.kind == "U",
     }
     found = {name: np.full(speed.size, value) for name, value in alike.items()}
