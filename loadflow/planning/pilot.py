@@ -28,6 +28,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
+from loadflow.wind.cases import load_case
 
 SHARE = 0.05
 """Processor time of a pilot over that of its run, at most, where the ladder knows both; a pilot of
@@ -369,8 +370,9 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
 
 
 def _short(scene: Scene, case: Case, duration: float) -> tuple[Scene, Case]:
-    """The case, no longer than `duration`, s, where it is simulated."""
-    if case.file or case.wind or case.steps * scene.loads.step <= duration:
+    """The case, no longer than `duration`, s, where it is simulated; a start is seen to its end."""
+    whole = case.file or case.wind or "start" in load_case(case.dlc).events
+    if whole or case.steps * scene.loads.step <= duration:
         return scene, case
     shorter = with_settings(scene, "loads", {"duration": duration})
     if shorter is None:

@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import clearances, film, film_heat, rolling, rotor, shaft, thrust
+from loadflow.stages.effects import (
+    clearances,
+    film,
+    film_heat,
+    roller_profile,
+    rolling,
+    rotor,
+    shaft,
+    thrust,
+)
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
@@ -29,7 +38,7 @@ EFFECTS: list[Effect] = [
     thrust.TILT,
     thrust.CONTACT,
     rolling.RINGS,
-    rolling.SLICED,
+    roller_profile.SLICED,
     rolling.CENTRIFUGAL,
 ]
 
