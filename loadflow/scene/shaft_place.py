@@ -23,9 +23,14 @@ def floating(shaft: Shaft, journal: Journal) -> Iterator[tuple[str, Concept, lis
         The bearings.
     """
     for kind, concept in shaft.suspensions.items():
-        films = [name for name in concept.bearings if name in journal.bearings]
+        films = films_of(concept, journal)
         if len(films) > 1 and set(films) & {*journal.tilting}:
             yield kind, concept, films
+
+
+def films_of(concept: Concept, journal: Journal) -> list[str]:
+    """Places of a suspension where films of journal bearings are."""
+    return [name for name in concept.bearings if name in journal.bearings]
 
 
 def floats_in_films(shaft: Shaft, journal: Journal) -> bool:

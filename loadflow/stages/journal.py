@@ -20,6 +20,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.scene.seats import without_seat
 from loadflow.stages.film_kept import RESOLVED, kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
 from loadflow.stages.film_past import AT_REST, past_of
@@ -442,4 +443,7 @@ STAGE = Stage(
     summarise=summary,
     warnings=warnings,
     work=_work,
+    left_out=lambda scene: without_seat(
+        "journal", {name: scene.journal.at(name) for name in scene.journal.bearings}
+    ),
 )

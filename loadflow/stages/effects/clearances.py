@@ -39,7 +39,7 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
         Smallest film of each bearing, m; NaN where the shaft stands.
     """
     where = dict(zip(concept.bearings, concept.positions))
-    places = {name: _place(at, name, (-1.0) ** k) for k, name in enumerate(names)}
+    places = {name: place_of(at, name, (-1.0) ** k) for k, name in enumerate(names)}
     first, last = names[0], names[-1]
     moved = places[last].position - places[first].position
     along = where[last] - where[first]
@@ -49,21 +49,28 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
 
 
 @dataclass(frozen=True)
-class _Place:
-    """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n)."""
+class Place:
+    """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n), m.
+
+    NaN where the shaft stands. `load` (5, n), N, presses on it.
+    """
 
     position: Floats
     film: Floats
+    load: Floats
 
 
-def _place(at: Situation, name: str, sign: float) -> _Place:
+def place_of(at: Situation, name: str, sign: float) -> Place:
+    """Place of a film under the mean load, and pushed by its deviation × `sign` as by `slopes`."""
     own, load = at.scene.journal.at(name), at.bearings[name]
     held = own.at_temperature(own.heat.inlet_temperature) if own.heat else own
     size = own.geometry
     width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
     bearing = replace(size, shape=CYLINDER, relief=(), width=width)
     force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
-    force = to_film(force * width / size.width)
+    force = to_film(force)
+    load = np.hypot(force[..., 0], force[..., 1])
+    force = force * width / size.width
     position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
     if at.turns.any():
         some = force[:, at.turns]
@@ -74,7 +81,7 @@ def _place(at: Situation, name: str, sign: float) -> _Place:
         lies = np.asarray(found.eccentricity).reshape(some.shape)
         position[:, at.turns] = from_film(lies)
         film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
-    return _Place(position, film)
+    return Place(position, film, load)
 
 
 def closed_ends(at: Situation) -> dict[str, float]:

@@ -3,7 +3,16 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import clearances, film, film_heat, rolling, rotor, shaft, thrust
+from loadflow.stages.effects import (
+    clearances,
+    film,
+    film_heat,
+    rolling,
+    rotor,
+    seats,
+    shaft,
+    thrust,
+)
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
@@ -24,10 +33,12 @@ EFFECTS: list[Effect] = [
     film.CONTACT,
     film.TURBULENCE,
     film.SUPPLY,
+    seats.SEATS,
     thrust.MOTION,
     thrust.HEAT,
     thrust.TILT,
     thrust.CONTACT,
+    seats.OF_COLLARS,
     rolling.RINGS,
     rolling.SLICED,
     rolling.CENTRIFUGAL,

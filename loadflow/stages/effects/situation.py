@@ -76,7 +76,8 @@ class BearingLoad:
     surge : ndarray, shape (n,)
         Largest deviation of the force along the shaft from its mean, N.
     slope : ndarray, shape (n,)
-        Largest slope of the bent shaft where a thrust collar stands, rad; 0 elsewhere.
+        Largest slope of the bent shaft in thrust collars and in what stands on a seat, rad; 0
+        elsewhere.
     held : ndarray, shape (n,)
         Largest radial force with bearings that are rigid where they take a moment, over that with
         bearings that take none, less 1; 0 where the suspension is statically determinate.
@@ -356,14 +357,15 @@ def _on_bearings(
 
 
 def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
-    """Largest slope of the shaft, rad, at each thrust collar; bearings are rigid, and let it tilt.
+    """Largest slope of the shaft, rad, at collars and seats; bearings are rigid, and let it tilt.
 
-    Where no beam is stated, of a shaft as wide as the bore of the pads.
+    Where no beam is stated, of a shaft as wide as the bore of the pads or of the bearing.
     """
-    found = {}
-    for name, collar in scene.thrust.collars.items():
+    found, journals = {}, {name: scene.journal.at(name) for name in scene.journal.bearings}
+    widths = {name: one.geometry.diameter for name, one in journals.items() if one.seat is not None}
+    widths |= {name: 2.0 * one.geometry.inner_radius for name, one in scene.thrust.collars.items()}
+    for name, wide in widths.items():
         concept: Concept = next(c for c in scene.shaft.concepts if name in c.bearings)
-        wide = 2.0 * collar.geometry.inner_radius
         beam = concept.beam or Beam((ShaftSection(wide, HOLLOW * wide),))
         bent = replace(concept, beam=beam.free_in_films().on_rigid_bearings())
         loads = bearing_loads(bent, force, moment, tilt=tilt).sel(bearing=name)
