@@ -22,8 +22,8 @@ SLIDES = {"kind": "spherical", "friction": 0.02, "radius": 1.9}
 
 
 def scene_of(seat=None, pads=None, winds=(12.0,), **more):
-    """Two journal bearings and a collar that align themselves on a shaft that bends."""
-    own = {} if seat is None else {"seat": seat}
+    """Two journal bearings at rest and a collar, which align themselves on a shaft that bends."""
+    own = {"motion": "quasi-static"} | ({} if seat is None else {"seat": seat})
     collar = {} if pads is None else {"seat": pads}
     film = {"kind": "journal", "self_aligning": True, "geometry": BORE} | own
     thrust = {"kind": "thrust", "self_aligning": True, "play": 6e-4, "geometry": LANDS} | collar

@@ -7,6 +7,7 @@ the film as misalignment.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Annotated, Literal
 
@@ -52,13 +53,22 @@ class SphericalSeat:
     def __post_init__(self) -> None:
         check_fields(self)
 
+    @property
+    def stiffness(self) -> float:
+        """Infinite: it turns as it slides alone, N m/rad."""
+        return math.inf
+
+    def slips_at(self, load: ArrayLike) -> Array:
+        """Moment, N m, at which it slides under loads, N."""
+        return np.asarray(self.friction * self.radius * np.abs(np.asarray(load, dtype=float)))
+
     def largest_moment(self, load: ArrayLike, slope: ArrayLike) -> Array:
         """Moment, N m, that it passes at most, under a load, N, to a shaft of a slope, rad.
 
         Both of one shape, or one of them a number; the moment has that shape.
         """
-        carried, _ = np.broadcast_arrays(np.abs(np.asarray(load, dtype=float)), slope)
-        return np.asarray(self.friction * self.radius * carried)
+        carried, _ = np.broadcast_arrays(self.slips_at(load), slope)
+        return np.array(carried)
 
 
 @dataclass(frozen=True)
@@ -86,6 +96,10 @@ class ElasticSeat:
 
     def __post_init__(self) -> None:
         check_fields(self)
+
+    def slips_at(self, load: ArrayLike) -> Array:
+        """Infinite: it never slides, whatever the loads, N."""
+        return np.full(np.shape(load), math.inf)
 
     def largest_moment(self, load: ArrayLike, slope: ArrayLike) -> Array:
         """Moment, N m, that it passes at most, to a shaft of a slope, rad, that it follows.

@@ -148,6 +148,30 @@ class Journal(Section, BaseModel):
         """Bearings in which the shaft may tilt: all but those that are `self_aligning`."""
         return [name for name in self.bearings if not self.at(name).self_aligning]
 
+    @property
+    def on_seats(self) -> list[str]:
+        """Bearings that are `self_aligning`, of which is stated what they stand on."""
+        return [name for name in self.bearings if self.at(name).seat is not None]
+
+    def check_moment(self, place: str, what: str) -> None:
+        """Refuse a support that is to take the moment of a film which has none.
+
+        Raises
+        ------
+        ValueError
+            Naming it by `what`, and what helps.
+        """
+        if not self.tilt:
+            raise ValueError(
+                f"{what}: only a tilted film takes a moment; set journal.tilt = true, or leave out "
+                "takes_moment"
+            )
+        if place in self.on_seats and not (self.in_motion and self.rung == "reduced"):
+            raise ValueError(
+                f"{what}: what a seat holds is followed in motion alone; set journal.motion = "
+                '"transient" and rung = "reduced"'
+            )
+
     @model_validator(mode="after")
     def _seat_of_what_aligns_itself(self) -> Self:
         check_seat(self, 0.5 * self.geometry.diameter)

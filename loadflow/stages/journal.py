@@ -221,7 +221,7 @@ def _moving(
     together: tuple[xr.Dataset, float | None] | None = None,
 ) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
-    options = scene.journal.at(bearing)
+    options = scene.journal.at(bearing).model_copy(update={"tilt": True} if together else {})
     held, warm = options, None
     if parked and isinstance(options.heat, Heat) and options.heat.stands_as_it_enters:
         # what it loses as it slips in its brake warms no oil; a balance is sought in vain for long

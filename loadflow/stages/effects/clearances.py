@@ -8,7 +8,7 @@ import numpy as np
 
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import floating, floats_in_films
+from loadflow.scene.shaft_place import Suspensions, floating, floats_in_films
 from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -69,7 +69,7 @@ def place_of(at: Situation, name: str, sign: float) -> Place:
     bearing = replace(size, shape=CYLINDER, relief=(), width=width)
     force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
     force = to_film(force)
-    load = np.hypot(force[..., 0], force[..., 1])
+    pressed = np.hypot(force[..., 0], force[..., 1])
     force = force * width / size.width
     position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
     if at.turns.any():
@@ -81,7 +81,7 @@ def place_of(at: Situation, name: str, sign: float) -> Place:
         lies = np.asarray(found.eccentricity).reshape(some.shape)
         position[:, at.turns] = from_film(lies)
         film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
-    return Place(position, film, load)
+    return Place(position, film, pressed)
 
 
 def closed_ends(at: Situation) -> dict[str, float]:
@@ -126,28 +126,28 @@ def _indicator(at: Situation) -> Sizes:
     return largest(found)
 
 
-def _stated(scene: Scene) -> bool:
-    """Whether a scene says what its shaft rests on, or that films are not those it floats in."""
-    found = floating(scene.shaft, scene.journal)
+def stated(scene: Scene, of: Suspensions) -> bool:
+    """Whether a scene says what shafts rest on, or that films are not those they float in."""
+    found = of(scene.shaft, scene.journal)
     other = {key for key, value in _TOGETHER.items() if getattr(scene.journal, key) != value}
-    stated = any(one.beam is not None and one.beam.supports for _, one, _ in found)
-    return stated or bool(other & scene.journal.model_fields_set)
+    rests = any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    return rests or bool(other & scene.journal.model_fields_set)
 
 
-def _switched(scene: Scene, on: bool) -> Scene | None:
-    """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
+def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
+    """The scene with shafts on rigid bearings, or on films that they are followed with in motion.
 
-    None where these are no films that can be, or the shaft stands at times.
+    None where these are no films that can be, or the shaft stands at times. `of` says which shafts.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
     if journal is None or (on and not always_turns(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
-    if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
+    if on and any(held & {*one.bearings} for _, one, _ in of(scene.shaft, scene.journal)):
         return None  # their moment, which no model feeds back, would hold the shaft
     support = BearingSupport(stiffness="journal", takes_moment=True)
     changed = {}
-    for kind, concept, films in floating(scene.shaft, scene.journal):
+    for kind, concept, films in of(scene.shaft, scene.journal):
         if concept.beam is not None and on:
             supports = (support,) * len(films)
             changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
@@ -156,7 +156,7 @@ def _switched(scene: Scene, on: bool) -> Scene | None:
     found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
     together = all(
         move_together(found, concept)
-        for _, concept, _ in floating(found.shaft, found.journal)
+        for _, concept, _ in of(found.shaft, found.journal)
         if concept.beam is not None
     )
     return found if not on or together else None
@@ -171,8 +171,8 @@ CLEARANCES = Effect(
     model="shaft",
     keys=("shaft.two_point", "shaft.integrated", "shaft.direct_drive"),
     is_on=lambda scene: floats_in_films(scene.shaft, scene.journal),
-    switched=_switched,
-    stated=_stated,
+    switched=lambda scene, on: switched(scene, on, floating),
+    stated=lambda scene: stated(scene, floating),
     indicator=_indicator,
     larger=lambda scene: 7.0,
     smaller=5.0,

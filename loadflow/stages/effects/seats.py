@@ -9,11 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.scene.journal import Journal
-from loadflow.scene.shaft_place import films_of
-from loadflow.stages.effects.clearances import place_of, slopes
+from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import films_of, on_seats
+from loadflow.stages.effects.clearances import CLEARANCES, place_of, slopes, stated, switched
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
+from loadflow.stages.shaft_in_films import move_together, seats_felt
 
 
 def shaft_slopes(at: Situation, name: str) -> Floats:
@@ -101,22 +103,33 @@ def _collars(at: Situation) -> Sizes:
 _OF_COLLARS = ("minimum film", "maximum pressure", "friction power")
 
 
+def _followed(scene: Scene) -> bool:
+    """Whether all shafts in films on seats are followed with them.
+
+    Plans choose section by section: that of the shaft says so, as far as the films can be.
+    """
+    found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
+    felt = [name for concept in found for name in seats_felt(scene, concept)]
+    chosen = scene.journal.tilt and scene.journal.in_motion
+    together = all(move_together(scene, concept) for concept in found)
+    return felt == scene.journal.on_seats and (together or not chosen)
+
+
 SEATS = Effect(
     "seats of the bearings",
-    model="journal",
-    keys=(),
-    is_on=lambda scene: False,
-    switched=lambda scene, on: None if on else scene,
+    model="shaft",
+    keys=CLEARANCES.keys,
+    is_on=_followed,
+    switched=lambda scene, on: switched(scene, on, on_seats),
+    stated=lambda scene: stated(scene, on_seats),
     indicator=_films,
-    out="shells follow the shaft at once and all the way, whatever their seats resist with",
-    needs="films that are tilted by what a seat leaves, which scenes do not have; a seat of less "
-    "friction, radius or stiffness would leave less",
-    concerns=lambda scene: (
-        scene.wants("journal")
-        and any(scene.journal.at(name).seat is not None for name in scene.journal.bearings)
-    ),
-    larger=lambda scene: 10.0,
+    larger=lambda scene: 60.0,  # where the shaft touches the ends of a film that carries little
     smaller=15.0,
+    out="shells follow the shaft at once and all the way, whatever their seats resist with",
+    needs="what tilt in the clearances does: two journal bearings, their films as supports of a "
+    'beam with takes_moment, journal.tilt, motion = "transient" and rung = "reduced"',
+    concerns=lambda scene: scene.wants("journal") and bool(scene.journal.on_seats),
+    probe="journal",
 )
 
 OF_COLLARS = Effect(
