@@ -53,6 +53,8 @@ def place(film, work, q):
                 h, after = h + take(wider, here), after + take(wider_faces, here)
             put(planes, here, h)
             put(faces, here, after)
+    if give > 0.0:
+        _join(film, work)
     if film.rough.size > 0.0:
         _rough_gap(film, work)
     else:
@@ -69,6 +71,15 @@ def place(film, work, q):
         _turbulent_gap(film, work)
     if film.uneven.on:
         _thickened_gap(film, work)
+
+
+@beside(lambda film, work: None)
+def _join(film, work):
+    """Where stretches meet, points of no width are in the gap of the inner ones at their place."""
+    m, planes = film.nodes.slopes.shape[1], work.gap[PLANES]
+    for n in range(film.nodes.joints.size):
+        for i in range(planes.shape[0]):
+            planes[i, m + n] = planes[i, film.nodes.joints[n]]
 
 
 @once

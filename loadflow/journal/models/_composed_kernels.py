@@ -209,6 +209,8 @@ def matrix(film, work, wedge, rate):
                     wider *= give * grows[i, c]
                     column = column + take(lanes.shares, c * wide + at) * wider
                 put(system.block, (i * m + c) * wide + at, column * ring.width[i])
+    if give > 0.0:
+        _joined(film, work)
     for at in range(0, wide, LANES):
         own, before, given = take(lanes.weights, at), spread(0.0), 0.5 * give
         for i in range(-1, nx):  # the face behind cell i, and before the next one
@@ -246,6 +248,19 @@ def matrix(film, work, wedge, rate):
                     system.block[i, k, k] = 1.0
     if film.held.on:
         hold_in_matrix(film, system)
+
+
+@beside(lambda film, work: None)
+def _joined(film, work):
+    """Add what the pressure opens at the points of no width where stretches meet to `matrix`."""
+    nodes, m, grows = film.nodes, film.nodes.slopes.shape[1], work.state[DLOAD]
+    for n in range(nodes.joints.size):
+        q, c = m + n, nodes.joints[n]
+        for i in range(film.ring.cos.size):
+            wider = nodes.weights[q] * work.gap_slope[i, q] * work.slope[i, q]
+            wider *= film.give * grows[i, c] * film.ring.width[i]
+            for k in range(m):
+                work.matrix.block[i, c, k] += nodes.slopes[q, k] * wider
 
 
 @once

@@ -1,14 +1,17 @@
-"""Reduced films of standing and creeping shafts in a shell that gives way.
+"""Reduced films in a shell that gives way, where Newton's method does not find them at once.
 
 A creeping film is as thick all over the place where it is pressed, and ends there within a few
 cells: no closed form is near it, and Newton's method does not find it at once. A faster film is
 found at once, and a standing shaft rests on its asperities alone; from either the speed goes to the
-one that is wanted in steps as long as Newton's method follows.
+one that is wanted in steps as long as Newton's method follows. Where oil ruptures and is conserved,
+first pressures go too far, and open the gap by as much: there a bore that is rigid at first gives
+way in such steps.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +31,7 @@ _EASY = 10  # Newton steps below which the next step of the speed is longer
 _LONGER, _SHORTER = 1.5, 0.5  # powers of it that are tried next
 _STEPS = 25  # Newton steps of each
 _LEAST = 1.01  # ratio of two speeds below which a step is given up
+_FIRMER, _FIRMEST = 0.25, 1e-3  # next step of the compliance, and share of it that is given up
 _BUDGET = 10  # Newton steps of a way, in multiples of those of a solution
 _OVERLAP = 1e-3  # first overlap of a standing shaft, clearances; the next ones are twice as large
 _DEEPEST = 20  # of these
@@ -77,6 +81,11 @@ class Creep:
 
     def places(self, speed: float) -> Iterator[Array]:
         """Places (4,) at a `speed`, rad/s, that the ways there have come to; fill the unknowns."""
+        law = self.model.units.law
+        if speed != 0.0 and law.keeps_fill and not law.smooth:
+            found = self.from_rigid(speed)
+            if found is not None:
+                yield found
         found = self.from_faster(speed) if speed != 0.0 else None
         if found is not None:
             yield found
@@ -96,6 +105,34 @@ class Creep:
             self.model.work.u[:] = self.model.cold()
             if self._solved(place, fast, self.most):
                 return self._go(place, fast, speed)
+
+    def from_rigid(self, speed: float) -> Array | None:
+        """Place (4,) from a bore that does not give way on; fills the unknowns.
+
+        None of a film with asperities, whose table knows one compliance.
+        """
+        model, work, given = self.model, self.model.work, self.spent
+        if model.film.rough.size > 0.0:
+            return None
+        place, share, next_one = self._estimate(speed), 0.0, 0.0
+        work.u[:] = model.cold()
+        unknowns, held = work.u.copy(), place.copy()
+        while True:
+            softer = model.film._replace(give=next_one * model.film.give)
+            self.model = replace(model, film=softer)
+            found = self._solved(place, speed, self.most)
+            self.model = model
+            if found and next_one == 1.0:
+                return place
+            if found:
+                step = 1.0 if next_one == 0.0 else 2.0 * (next_one - share)
+                unknowns, held, share = work.u.copy(), place.copy(), next_one
+            else:
+                work.u[:], place[:] = unknowns, held
+                step = _FIRMER * (next_one - share)
+            if step < _FIRMEST or self.spent - given > _BUDGET * self.most:
+                return None
+            next_one = min(share + step, 1.0)
 
     def from_standing(self, speed: float) -> Array | None:
         """The same from the shaft that stands on its asperities."""

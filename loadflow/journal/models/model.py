@@ -241,10 +241,8 @@ def _beside_grooves(
         yield f"{name}.shape", groove.shape, groove.shape == "circle", f'"rectangle" {on_few}'
         apart, within = not on_one_segment(groove, segments, *cells), "that of a groove within one"
         yield f"{name}.angle", groove.angle, apart, f"{within} segment of the bore {on_few}"
-    beside = f"none beside a supply {on_few}"
     moving = bearing.has_pads and verb == "in_motion"  # at rest they are of the grid
     yield "shape", bearing.shape, moving, f"one without pads beside a supply in motion {on_few}"
-    yield "shell", film.shell, True, beside
 
 
 def _kind_of_heat(film: Film, verb: Verb) -> str:

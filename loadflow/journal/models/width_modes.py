@@ -29,6 +29,9 @@ class Axial(NamedTuple):
         q at mid-plane is middle · q.
     end_weight : float
         Width that belongs to the bearing end itself.
+    joints : array of int (j,)
+        Inner points at which stretches meet: those of the points of no width, which follow the
+        inner ones, of `stretched_width`.
     width, widest : float
         Sum of the weights, and largest one.
     """
@@ -115,6 +118,7 @@ class Nodes(NamedTuple):
     highest: Array
     beyond: Array
     below: Array
+    joints: NDArray[np.int64]
     width: float
     widest: float
 
@@ -144,6 +148,7 @@ def whole_width(half_width: float, points: int, few: int | None = None) -> Nodes
         highest=shares[-2:],
         beyond=shares[few - 2 if few else points // 4 * 2 :],
         below=np.full(points, 0.5),
+        joints=np.zeros(0, dtype=np.int64),
         width=half_width * float(weights.sum()),
         widest=half_width * float(weights.max()),
     )
@@ -170,6 +175,7 @@ def half_width_nodes(half_width: float, points: int, few: int | None = None) -> 
         highest=shares[-1:],
         beyond=shares[few - 1 if few else points // 2 :],
         below=np.full(points, 0.5),
+        joints=np.zeros(0, dtype=np.int64),
         width=half_width * float(weights[order].sum()),
         widest=half_width * float(weights[order].max()),
     )
@@ -271,6 +277,7 @@ def stretched_width(
         highest=of_unknown(np.array(highest if whole else highest[len(marks) :])),
         beyond=of_unknown(np.array(beyond)) if few else np.zeros((0, unknown.size)),
         below=below[unknown],
+        joints=np.searchsorted(unknown, bends[shown]),
         width=half_width * float(real.sum()),
         widest=half_width * float(own[unknown].max()),
     )
