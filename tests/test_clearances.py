@@ -3,22 +3,32 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import xarray as xr
+from synthetic import cube_file
 
+from benchmarks.ladder.physics import kept_so_far
+from benchmarks.ladder.physics_sizes import in_clearances
 from loadflow.errors import InputError
+from loadflow.planning import pilot
+from loadflow.planning.asked import resting
 from loadflow.planning.pilot import Questions, measure
-from loadflow.planning.plan import chosen_models, make_plan
+from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft_place import floating
-from loadflow.stages import bores
+from loadflow.scene.thrust import Thrust
+from loadflow.stages import bores, thrust
+from loadflow.stages.effects import clearances
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
 from loadflow.stages.effects.film import TILT
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
+from loadflow.stages.probes import Probe
+from loadflow.stages.registry import STAGES
 from loadflow.stages.shaft import bearing_loads
 
 FLOATS = [{"stiffness": "journal"}, {"stiffness": "journal"}]
@@ -62,8 +72,8 @@ def test_closed_charts_have_the_slope_of_solved_films():
     scene = scene_of(FLOATS)
     at = estimated(scene)
     ((_, concept, names),) = floating(scene.shaft, scene.journal)
-    slope, films = slopes(at, concept, names)
-    assert all((film > 0).all() for film in films.values())
+    slope, places = slopes(at, concept, names)
+    assert all((place.film > 0).all() for place in places.values())
     pushed = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
     for way, estimate in zip(pushed, np.linalg.norm(slope, axis=-1)):
         forces = [
@@ -108,25 +118,78 @@ def test_a_plan_feeds_films_back_where_the_accuracy_asks_for_it():
 @pytest.mark.slow
 @pytest.mark.parametrize("turbine", ["windpact-1.5mw", "nrel-5mw"])
 def test_the_indicator_has_the_size_that_a_pilot_measures(turbine):
-    """Sized bearings at 12 m/s, whose ends do not touch."""
-    scene = make_scene(
-        {
-            "name": "sized",
-            "turbine": {"name": turbine},
-            "bearings": ["journal-cylindrical"],
-            "results": ["journal.film"],
-            "loads": {"wind_speeds": [12.0], "seeds": 1, "duration": 60.0},
-            "shaft": {"two_point": {"beam": {}}},
-        }
-    )
+    """Sized bearings at 12 m/s, whose ends do not touch; the page has what is measured."""
+    scene = in_clearances(turbine, 12.0)
     cases = tuple(list_cases(scene))
-    chosen = chosen_models(scene, cases).scene
-    assert CLEARANCES.is_on(chosen)
-    found = measure(Questions(chosen, (CLEARANCES.name,), 60.0, cases), cases[0])
-    sizes, indicated = found.sizes[CLEARANCES.name], CLEARANCES.indicator(estimated(scene))
+    sizes = measure(Questions(scene, (CLEARANCES.name,), 60.0, cases), cases[0]).sizes
+    (kept,) = [
+        one["sizes"]
+        for one in kept_so_far()["clearances"]
+        if (one["turbine"], one["speed"]) == (turbine, 12.0)
+    ]
+    assert sizes[CLEARANCES.name] == pytest.approx(kept[CLEARANCES.name], rel=0.05)
+    indicated = CLEARANCES.indicator(estimated(scene))
     for quantity in ("minimum film", "maximum pressure"):
-        ratio = sizes[quantity] / indicated[quantity]
+        ratio = sizes[CLEARANCES.name][quantity] / indicated[quantity]
         assert 1 / CLEARANCES.smaller < ratio < CLEARANCES.larger(scene)
+
+
+def test_what_a_pilot_asks_after_films_it_asks_around_the_shaft_in_these_films(monkeypatch):
+    """So collars beside journal bearings are tilted as their scene says."""
+    pads = {"pads": 6, "inner_radius": 1.6, "outer_radius": 2.0, "pad_angle": 0.9, "taper": 1e-4}
+    collar = {"kind": "thrust", "geometry": pads, "lubricant": {"viscosity": 0.2}}
+    collar |= {"self_aligning": True}
+    scene = scene_of(motion="transient", rung="reduced").model_copy(
+        update={"thrust": Thrust(bearings={"N2": collar})}
+    )
+    asked = []
+
+    def lies_in(scene, case, inputs):
+        return sorted(scene.shaft.coupled)
+
+    def answers(scene, case, inputs):
+        asked.append((lies_in(scene, case, inputs), inputs["shaft"]))
+        return {("N2", "minimum film"): 1.0}
+
+    for name, run in (("loads", lambda *about: None), ("shaft", lies_in)):
+        monkeypatch.setitem(STAGES, name, replace(STAGES[name], run=run))
+    probe = Probe(("loads", "shaft"), answers)
+    monkeypatch.setattr(pilot, "PROBES", {"journal": probe, "thrust": probe})
+    names = (CLEARANCES.name, "heat of the collar")
+    measure(Questions(scene, names, 60.0, ()), list_cases(scene)[0])
+    assert {tuple(lies) for lies, _ in asked} == {(), ("N", "N2")}
+    assert asked[-1][0] == ["N", "N2"]
+    for lies, found in asked:
+        assert lies == found
+
+
+def test_a_shaft_in_films_is_another_one_where_these_are():
+    """But for films at rest, which are asked around the shaft that is followed in motion."""
+    moving, thin = ({"motion": "transient", "rung": "reduced"} | more
+                    for more in ({}, {"lubricant": {"viscosity": 0.1}}))  # fmt: skip
+    fed_back = [{"stiffness": "journal", "takes_moment": True}] * 2
+    rest = moving | {"motion": "quasi-static"}
+    assert resting(scene_of(**moving)) == resting(scene_of(**thin))
+    own = resting(scene_of(fed_back, **moving))
+    assert own != resting(scene_of(**moving))
+    assert own != resting(scene_of(fed_back, **thin))
+    assert own == resting(scene_of(fed_back, **rest))
+
+
+def test_the_ends_of_a_film_close_down_to_where_surfaces_touch(monkeypatch):
+    """In proportion to what they take of it at first, and no further than to that gap."""
+    at = estimated(scene_of())
+    film = np.full((5, 2), 20.0 * at.scene.journal.at("N").contact_film)
+
+    def told(share):
+        ends = {"N": clearances._Ends(np.full(film.shape, share), film)}
+        monkeypatch.setattr(clearances, "_ends", lambda at: ends)
+        return CLEARANCES.indicator(at)["minimum film"]
+
+    assert told(0.0) == pytest.approx(0.0, abs=1e-6)
+    assert told(0.01) == pytest.approx(0.01, rel=0.02)
+    assert told(1.0) == pytest.approx(np.expm1(2.0) / 2.0 - 1.0)
+    assert told(9.0) == pytest.approx(19.0)
 
 
 def test_it_is_the_scene_s_that_states_supports_and_needs_two_films_on_a_beam():
@@ -163,10 +226,37 @@ def test_a_bore_is_turned_as_stated_or_as_the_shaft_lies():
     assert {name: turn.tolist() for name, turn in bores.bores(stated).items()} == {
         name: from_film([1e-4, -2e-5]).tolist() for name in ("N", "N2")
     }
-    assert "alignment" not in at_usual_loads(stated)[0]
+    told = at_usual_loads(stated)[0]["alignment"].transpose("bearing", "axis").values
+    np.testing.assert_allclose(told, [from_film([1e-4, -2e-5])] * 2, rtol=1e-6)
+    assert "alignment" not in at_usual_loads(scene_of())[0]
     one = scene_of(own={"N2": {"alignment": "mean"}})
     assert not np.any(bores.bores(one)["N"])
     assert np.any(bores.bores(one)["N2"])
+
+
+@pytest.mark.parametrize("turned", ["mean", [1e-4, -2e-5]])
+def test_pads_have_the_tilt_of_the_shaft_in_the_bore_that_they_stand_in(turned):
+    scene = scene_of(alignment=turned, own={"N2": {"alignment": [0.0, 0.0]}})
+    row = {"pads": 6, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5}
+    collar = {"kind": "thrust", "geometry": row, "play": 6e-4}
+    collars = {"N": collar, "N2": collar}
+    pads = make_scene(
+        {
+            "name": "pads",
+            "results": ["thrust.film"],
+            "shaft": {"two_point": {"beam": {}}},
+            "thrust": {"tilt": True, "motion": "transient", "bearings": collars},
+        }
+    )
+    found, usual = at_usual_loads(scene)
+    loads = xr.Dataset({"speed": ("time", usual.speed)}, {"time": found["time"]})
+    inputs = {"loads": loads, "shaft": found}
+    for name, bore in bores.bores(scene).items():
+        part = pads.thrust.bearings[name]
+        told = thrust.samples_of(pads, Case("1.1", 12.0, 1), part, name, inputs)["tilt"]
+        lies = found["tilt"].sel(bearing=name).transpose("time", "axis").values
+        assert np.any(bore) == (name == "N")
+        np.testing.assert_allclose(told.values.T, lies - bore, atol=1e-10)
 
 
 def test_bores_are_those_of_all_load_cases_in_every_process():
@@ -188,10 +278,40 @@ def test_bores_are_those_of_all_load_cases_in_every_process():
     assert json.loads(told.stdout) == ours
 
 
+def test_bores_follow_what_files_hold_and_not_their_names(tmp_path):
+    path, found = tmp_path / "loads.h5", []
+    for seed in (1, 2):
+        cube_file(path, wind_speeds=(8.0,), seeds=(seed,), steps=200)
+        scene = scene_of(alignment="mean", loads={"files": [str(path)]})
+        found.append(bores.bores(scene)["N"])
+    assert np.linalg.norm(found[1] - found[0]) > 1e-3 * np.linalg.norm(found[0]) > 0.0
+
+
+def test_without_tilt_each_shaft_lies_straight_in_its_own_bore():
+    """So a plan that asks what tilt is worth aligns each bearing by itself."""
+    own = {"own": {"N2": {"alignment": [1e-4, -2e-5]}}, "rung": "reduced"}
+    scene = scene_of(alignment="mean", **own)
+    found, _ = at_usual_loads(scene)
+    straight = TILT.muted(scene)({"shaft": found})["shaft"]
+    assert not straight["moment"].any()
+    for name in ("N", "N2"):
+        turned = found["alignment"].sel(bearing=name)
+        assert np.any(turned)
+        np.testing.assert_allclose(straight["tilt"].sel(bearing=name) - turned, 0.0, atol=1e-10)
+
+
 @pytest.mark.parametrize("word", ["median", [1e-4], "0.0"])
 def test_another_word_for_the_alignment_is_refused_by_its_name(word):
     with pytest.raises(InputError, match="alignment"):
         scene_of(alignment=word)
+
+
+@pytest.mark.parametrize("rung", ["map", "chart"])
+def test_films_that_know_no_tilt_may_align_themselves_beside_a_key_for_tilt(rung):
+    film = {"rung": rung, "cavitation": {"kind": "reynolds", "cavitation_pressure": 5e5}}
+    assert not scene_of(self_aligning=True, **film).journal.at("N").tilt
+    with pytest.raises(InputError, match="tilt"):
+        scene_of(**film)
 
 
 def test_a_shaft_lies_straight_in_bearings_that_align_themselves():

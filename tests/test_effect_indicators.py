@@ -4,9 +4,10 @@ import pytest
 
 from benchmarks.ladder import indicators
 from benchmarks.ladder.physics import PAGE, kept_so_far
+from loadflow.planning.pilot import Questions, measure
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.stages.effects import film, film_heat, rolling, rotor, shaft
+from loadflow.stages.effects import film, film_heat, roller_profile, rolling, rotor, shaft
 from loadflow.stages.effects.situation import situation
 
 
@@ -55,7 +56,7 @@ def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_
         if not one.within and one.effect is not rotor.LATERAL  # no plan leaves it out
     }
     assert {*wrong} == TOUCHES
-    for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, rolling.SLICED, rotor.INFLOW):
+    for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, roller_profile.SLICED, rotor.INFLOW):
         assert sum(one.counts for one in most if one.effect is effect) >= 15
 
 
@@ -70,3 +71,16 @@ def test_the_heat_of_a_film_is_indicated_within_a_factor_of_three_where_the_roto
 
 def test_the_page_of_physics_has_the_factors_of_the_indicators(measured):
     assert indicators.indicator_table(measured) in PAGE.read_text(encoding="utf-8")
+
+
+def test_a_pilot_sees_a_start_to_its_end():
+    """In its first minute the rotor hardly turns, and induces nothing."""
+    loads = {"dlc": "3.1", "wind_speeds": [4.0], "seeds": 1, "rung": "tables"}
+    results = ["loads.statistics"]
+    scene = make_scene({"name": "s", "loads": loads, "results": results, "accuracy": "given"})
+    (case,) = list_cases(scene)
+    found = measure(Questions(scene, (rotor.INFLOW.name,), 60.0, (case,)), case)
+    told = rotor.INFLOW.indicator(situation(scene, [case]))
+    measured = found.sizes[rotor.INFLOW.name]["bearing force DEL"]
+    assert measured > 0.05
+    assert 1 / 3 < told["bearing force DEL"] / measured < rotor.INFLOW.smaller

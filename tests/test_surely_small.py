@@ -14,7 +14,8 @@ from loadflow.planning.verification import differences
 from loadflow.scene import make_scene, read_scene
 from loadflow.stages import comparisons
 from loadflow.stages.effects.effect import UNSURE
-from loadflow.stages.effects.rolling import RINGS, SLICED
+from loadflow.stages.effects.roller_profile import SLICED
+from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.registry import STAGES
 
 QUICK = Path(__file__).parents[1] / "pipelines" / "quick_look.toml"

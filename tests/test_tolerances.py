@@ -91,6 +91,13 @@ def test_the_band_of_a_named_oil_is_a_share_of_its_viscosity():
         ({"tolerances": {"N": {CLEARANCE: -1e-4}}}, "must be > 0"),
         ({"tolerances": {"N": {"kind": 1.0}}}, "no bearing there has such a number"),
         ({"tolerances": {"N": {"alignment.0": 1e-4}}, "shaft": {"two_point": {}}}, "alignment"),
+        (
+            {
+                "tolerances": {"N": {"alignment.0": 1e-4}},
+                "bearings": {"N": FILM | {"tilt": True, "alignment": "mean"}},
+            },
+            'alignment = "mean"; a tolerance is about a turn in rad',
+        ),
     ],
 )
 def test_what_cannot_be_is_refused_by_its_key(parts, said):

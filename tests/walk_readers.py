@@ -91,13 +91,18 @@ def inputs(scene):
     """What the stages before bearings give, once for scenes that do not differ in it."""
     if scene.shaft.coupled or scene.reduction.method == "periodic":  # these ask the bearings
         return _made(scene)
-    key = scene.model_dump_json(include={"shaft", "reduction", "turbine", "rolling"})
+    key = scene.model_dump_json(include=READ)
     if key not in _INPUTS:
         _INPUTS[key] = _made(scene)
     return _INPUTS[key]
 
 
 _INPUTS = {}
+READ = {
+    "shaft": True, "reduction": True, "turbine": True,
+    "rolling": {"bearing": True, "further": True},
+}  # fmt: skip
+"""What the stages before bearings read of a scene."""
 
 
 def _made(scene):
@@ -139,6 +144,8 @@ def films(scene):
 
 
 def _journal(scene):
+    if any(scene.journal.at(name).seat is not None for name in scene.journal.bearings):
+        yield make_plan(scene).errors["journal.film"]
     tree = films(scene)
     yield tree
     yield from _judged(scene, journal, tree)
@@ -158,6 +165,8 @@ def _rolling(scene):
 
 
 def _thrust(scene):
+    if any(one.seat is not None for one in scene.thrust.collars.values()):
+        yield make_plan(scene).errors["thrust.film"]
     tree = thrust.films(scene, ONE, inputs(scene))
     yield tree
     yield from _judged(scene, thrust, tree)

@@ -41,6 +41,7 @@ PER_PLACE = {
     "elements": parts.on_rollers,
     "films": parts.touching,
     "oil": parts.grooved,
+    "clearances": parts.in_clearances,
     "lateral": parts.realised,
 }
 """Scene of a part of the measurements, of a turbine and a wind speed."""

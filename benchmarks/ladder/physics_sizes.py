@@ -29,8 +29,9 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects import film as film_effects
 from loadflow.stages.effects import film_heat
 from loadflow.stages.effects import shaft as shaft_effects
+from loadflow.stages.effects.clearances import CLEARANCES
 from loadflow.stages.effects.effect import Effect
-from loadflow.stages.effects.rolling import SLICED
+from loadflow.stages.effects.roller_profile import SLICED
 from loadflow.stages.effects.rotor import LATERAL
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.probes import PROBES, Answers
@@ -285,6 +286,23 @@ def _seated(scene: Scene, case: Case, hub: xr.Dataset) -> Answers:
     return largest | PROBES["journal"].answers(scene, case, {"loads": hub, "shaft": loads})
 
 
+def clearances(known: Found) -> Found:
+    """What is lost where a shaft on films that do not align themselves lies on rigid bearings."""
+    for turbine, speed in _left(known):
+        yield _measured(turbine, speed, in_clearances(turbine, speed), CLEARANCES)
+
+
+def in_clearances(turbine: str, speed: float) -> Scene:
+    """Scene of `clearances`: sized bores, aligned with the shaft as it lies at its usual load.
+
+    On two points, as the shaft of a direct drive is too short for bearings so wide.
+    """
+    film = {"motion": "transient", "tilt": True, "rung": "reduced", "alignment": "mean"}
+    shaft = {"two_point": machine(turbine)["shaft"].get("two_point", {}) | {"beam": {}}}
+    keys: dict[str, Any] = {"loads": _tabulated(speed), "accuracy": "given", "results": FILM_ALONE}
+    return scene_of(turbine, film=film, sized=True, shaft=shaft | {"moment": {}}, **keys)
+
+
 def lateral(known: Found) -> Found:
     """What is lost without coherence of v and w: of means over `REALISED` seeds of 120 s.
 
@@ -380,6 +398,7 @@ BESIDE: dict[str, Callable[[Found], Found]] = {
     "films": films,
     "oil": oil,
     "fed_back": fed_back,
+    "clearances": clearances,
     "lateral": lateral,
     "rotors": rotors,
 }

@@ -17,10 +17,10 @@ from threadpoolctl import threadpool_limits
 
 from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
-from loadflow.planning.asked import Asked, changes, tried, without
+from loadflow.planning.asked import Asked, changes, resting, tried, without
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
-from loadflow.planning.plan import chosen_models, needed_stages
+from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -28,6 +28,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
+from loadflow.wind.cases import load_case
 
 SHARE = 0.05
 """Processor time of a pilot over that of its run, at most, where the ladder knows both; a pilot of
@@ -38,10 +39,6 @@ SOLVED = 1.0
 
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
-
-
-LITTLE = 0.02
-"""Share of the time of a run that an effect may take to be kept unasked: to ask takes longer."""
 
 
 @dataclass(frozen=True)
@@ -332,6 +329,7 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
     inputs: dict[str, Any] = dict(given or {})
+    shafts = {resting(scene): inputs["shaft"]} if "shaft" in inputs else {}
     for model, probe in PROBES.items():
         ours = [effect for effect in effects if effect.probed == model]
         if not ours:
@@ -344,11 +342,12 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             for name in probe.reads:
                 if name not in inputs:
                     inputs[name] = STAGES[name].run(scene, case, inputs)
+                    shafts |= {resting(scene): inputs[name]} if name == "shaft" else {}
         except SolverError:
             break  # the run itself says so of this case
         if not probe.can_answer(case, inputs):
             continue
-        asked = Asked(probe, scene, case, inputs)
+        asked = Asked(probe, case, inputs, shafts)
         answers = asked.answers
 
         scene, best = _all_on(scene, ours, answers, refused)
@@ -371,8 +370,9 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
 
 
 def _short(scene: Scene, case: Case, duration: float) -> tuple[Scene, Case]:
-    """The case, no longer than `duration`, s, where it is simulated."""
-    if case.file or case.wind or case.steps * scene.loads.step <= duration:
+    """The case, no longer than `duration`, s, where it is simulated; a start is seen to its end."""
+    whole = case.file or case.wind or "start" in load_case(case.dlc).events
+    if whole or case.steps * scene.loads.step <= duration:
         return scene, case
     shorter = with_settings(scene, "loads", {"duration": duration})
     if shorter is None:

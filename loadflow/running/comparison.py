@@ -324,7 +324,9 @@ def _as_run(base: Scene, scene: Scene, folder: Path) -> Scene | None:
     if read_manifest(folder).get("wanted") not in (base.digest(), scene.digest()):
         return None
     stated = read_scene(folder / "scene.toml")
-    return base.model_copy(update={"loads": stated.loads, "shaft": stated.shaft})
+    # all of it named, that which is None, too: what is not is open to the plan of a candidate
+    loads = stated.loads.model_copy(update=dict(stated.loads))
+    return base.model_copy(update={"loads": loads, "shaft": stated.shaft})
 
 
 def _there(plan: Plan, folder: Path) -> bool:

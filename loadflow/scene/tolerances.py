@@ -189,6 +189,8 @@ class Toleranced:
                 told = f"tolerances.{place}.{key} = {tolerance:g}"
                 if not (math.isfinite(tolerance) and tolerance > 0):
                     raise ValueError(f"{told}: must be > 0")
+                if key.split(".")[0] == "seat":
+                    raise ValueError(f"{told}: no film has its seat, whose effect plans estimate")
                 for end in (-1, 1):
                     try:
                         self._moved(place, key, end * tolerance)
@@ -203,6 +205,12 @@ class Toleranced:
                     f"{where}: only a film at rest or along the series, around a shaft with a "
                     "beam, knows it; give its suspension a beam"
                 )
+
+    def _no_number(self, place: str, key: str) -> str:
+        film = self.journal.at(place) if place in self.journal.bearings else None
+        if key == ALIGNMENT and film is not None and film.alignment == "mean":
+            return 'its bore has alignment = "mean"; a tolerance is about a turn in rad'
+        return "no bearing there has such a number"
 
     def is_turned(self, place: str) -> bool:
         """Whether the bore of a journal bearing is, or may be, out of line with its housing."""
@@ -226,7 +234,7 @@ class Toleranced:
             parts = {**thrust.bearings, place: pads}
             update["thrust"] = thrust.model_copy(update={"bearings": parts})
         if not update:
-            raise InputError("no bearing there has such a number")
+            raise InputError(self._no_number(place, path[0]))
         return replace(self, **update)
 
 

@@ -242,7 +242,10 @@ class Beam:
         """The beam with rigid bearings in place of its films, in which it turns freely.
 
         As films that give way under a moment let it; rigid bearings that take one would clamp it.
+        A single bearing holds the shaft by its moment alone, and is rigid against it, too.
         """
+        if len(self.supports) == 1:
+            return self.on_rigid_bearings()
         supports = tuple(
             replace(one, stiffness="given", takes_moment=False, housing_tilt=None)
             if one.stiffness == "journal"

@@ -53,10 +53,12 @@ class ShaftInFilms:
         return _rotated(slope[_MOMENTS])
 
     def motion(
-        self, position: Floats, moment: Floats, converged: NDArray[np.bool_], residual: float
+        self, position: Floats, moment: Floats, converged: NDArray[np.bool_], told: Convergence
     ) -> ShaftMotion:
-        """Loads and motion of the shaft by positions (4, n), m, and moments (4, n), N m."""
-        told = Convergence(bool(converged.all()), residual, 1)
+        """Loads and motion of the shaft by positions (4, n), m, and moments (4, n), N m.
+
+        `converged` (n,) says in which samples these are known, and `told` how they were found.
+        """
         return self.line.motion(*self._lying(position, moment), told, converged)
 
     def _reactions(self, moment: Floats) -> Floats:

@@ -19,6 +19,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floating
 from loadflow.shaft import Concept
@@ -67,14 +68,15 @@ def bores(scene: Scene) -> dict[str, Floats]:
     return {name: found.get(name, np.zeros(3)) for name in stated}
 
 
-def follow_the_shaft(scene: Scene) -> list[str]:
-    """Journal bearings whose bores are aligned with the shaft at its usual load."""
-    return [name for name in scene.journal.tilting if scene.journal.at(name).alignment == "mean"]
+def turned_bores(scene: Scene) -> list[str]:
+    """Journal bearings whose bores are turned, as stated or as they follow the shaft."""
+    journal = scene.journal
+    return [name for name in journal.tilting if journal.at(name).alignment != (0.0, 0.0)]
 
 
 def with_bores(scene: Scene, shaft: xr.Dataset) -> xr.Dataset:
-    """Loads of bearings, and `alignment` (bearing, axis) of those whose bores follow the shaft."""
-    places = follow_the_shaft(scene)
+    """Loads of bearings, and `alignment` (bearing, axis) of those whose bores are turned."""
+    places = turned_bores(scene)
     if not places or "tilt" not in shaft:
         return shaft
     turned, none = bores(scene), np.zeros(3)
@@ -91,19 +93,23 @@ def against_bore(bearing: xr.Dataset) -> xr.Dataset:
     return bearing.assign(tilt=tilt.transpose(*bearing["tilt"].dims))
 
 
-def following(bearing: xr.Dataset) -> xr.Dataset:
-    """Samples of a bearing with their `weight`, and the `alignment` of a bore that follows them.
+def in_bore(bearing: xr.Dataset, options: Journal) -> xr.Dataset:
+    """Samples of a bearing with their `weight`, and the `alignment` of the bore of `options`.
 
-    That is the mean of their own `tilt`: of a spectrum, which tells the loads of all load cases.
+    One that follows the shaft has the mean of their own `tilt`: that of a spectrum, which tells the
+    loads of all load cases.
     """
     if "tilt" not in bearing:
         return bearing
-    mean = bearing["tilt"].weighted(bearing["weight"]).mean("sample")
-    return bearing.assign(alignment=mean.assign_attrs(bearing["tilt"].attrs))
+    if options.alignment == "mean":
+        turn = bearing["tilt"].weighted(bearing["weight"]).mean("sample")
+    else:
+        turn = xr.DataArray(from_film(options.alignment), dims="axis")
+    return bearing.assign(alignment=turn.assign_attrs(bearing["tilt"].attrs))
 
 
 def told_bores(tables: Mapping[str, Any]) -> list[str]:
-    """Say how bores are turned that follow the shaft, by the tables of a run, by stage."""
+    """Say how bores are turned, by the tables of a run, by stage."""
     if "shaft" not in tables or ALIGNED[0] not in tables["shaft"]:
         return []
     shaft = tables["shaft"]
@@ -113,7 +119,7 @@ def told_bores(tables: Mapping[str, Any]) -> list[str]:
         for name, one, other in zip(shaft["bearing"].values, down, left)
         if one or other
     ]
-    return [f"bores aligned with the shaft at its usual load: {', '.join(told)}"] if told else []
+    return [f"bores turned against a shaft that does not bend: {', '.join(told)}"] if told else []
 
 
 _KNOWN: dict[str, dict[str, Floats]] = {}
@@ -122,10 +128,20 @@ _KNOWN: dict[str, dict[str, Floats]] = {}
 
 def _mean(scene: Scene) -> dict[str, Floats]:
     """Mean tilt of the shaft in each journal bearing on a beam, (3,), rad."""
-    key = scene.digest("turbine", "loads", "environment", "shaft", "journal")
+    sections = ("turbine", "loads", "environment", "shaft", "journal")
+    key = ":".join([scene.digest(*sections), *_contents(scene)])
     if key not in _KNOWN:
         _KNOWN[key] = _mean_tilt(scene, usual_loads(scene))
     return _KNOWN[key]
+
+
+def _contents(scene: Scene) -> list[str]:
+    """What the files of load series hold, of which a scene tells the names."""
+    if scene.loads.source != "files":
+        return []
+    from loadflow.scene.cases import list_cases
+
+    return [case.fingerprint for case in list_cases(scene)]
 
 
 def _mean_tilt(scene: Scene, usual: UsualLoads) -> dict[str, Floats]:

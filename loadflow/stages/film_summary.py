@@ -85,7 +85,7 @@ def extremes(samples: xr.Dataset, parked: bool = False, starts: bool = False) ->
     found: dict[str, tuple[xr.DataArray, str, str]] = {}
     for name, (of, which, units, meaning) in EXTREMES.items():
         if of in samples:
-            found |= _extreme(samples, name, _judged(samples, of, floats), which, units, meaning)
+            found |= _extreme(samples, name, judged(samples, of, floats), which, units, meaning)
     if "load" in samples:
         values, meaning = np.where(turns, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
@@ -117,7 +117,7 @@ def _mixed(samples: xr.Dataset) -> NDArray[np.bool_]:
     return np.asarray(samples["eccentricity_ratio"].values > critical)
 
 
-def _judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
+def judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Values of which the extreme is taken; NaN where they do not count."""
     values = samples[of].values
     return np.where(turns, values, np.nan) if of in IN_MOTION else values
@@ -148,7 +148,7 @@ def _grid_errors(
     found = {}
     for name in ("smallest_film", "largest_pressure"):
         of, which, units, meaning = EXTREMES[name]
-        values, bounds = _judged(samples, of, turns), samples.get(of + GRID_ERROR)
+        values, bounds = judged(samples, of, turns), samples.get(of + GRID_ERROR)
         bound = samples.attrs.get(of + GRID_ERROR, np.nan)
         if bounds is not None and np.isfinite(values).any():
             bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]

@@ -18,10 +18,16 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
-from loadflow.stages.bores import ALIGNED, bores, follow_the_shaft, with_bores
+from loadflow.stages.bores import ALIGNED, bores, turned_bores, with_bores
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import labelled
-from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
+from loadflow.stages.shaft_in_films import (
+    STILL,
+    move_together,
+    runs,
+    seats_felt,
+    shaft_on_films,
+)
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
@@ -51,6 +57,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     parts = [
         _with_films(scene, concept, series, tilt)
         if move_together(scene, concept) and runs(speed)
+        else _freely(concept, series, tilt)
+        if seats_felt(scene, concept)
         else _suspended(scene, concept, force, moment, speed, tilt)
         for concept in scene.shaft.concepts
     ]
@@ -83,7 +91,10 @@ def _suspended(
 
 
 def _with_films(scene: Scene, concept: Concept, series: xr.Dataset, tilt: float) -> xr.Dataset:
-    """A shaft in motion with its films; on rigid bearings where that path stops, with a warning."""
+    """A shaft in motion with its films; where that path stops on rigid bearings, with a warning.
+
+    It turns freely in these: clamped it would tell moments that no film takes.
+    """
     try:
         return _against_bores(shaft_on_films(scene, concept, series, tilt))
     except SolverError as error:
@@ -93,11 +104,18 @@ def _with_films(scene: Scene, concept: Concept, series: xr.Dataset, tilt: float)
             ValidityWarning,
             stacklevel=2,
         )
+    return _freely(concept, series, tilt)
+
+
+def _freely(concept: Concept, series: xr.Dataset, tilt: float) -> xr.Dataset:
+    """A shaft on rigid bearings that it turns freely in, in no sample on its own ones."""
+    assert concept.beam is not None
     loads = (
         series[name].transpose("axis", "time").values.astype(float)
         for name in ("hub_force", "hub_moment")
     )
-    rigid = reactions(replace(concept, beam=concept.beam.on_rigid_bearings()), *loads, tilt=tilt)
+    freely = concept.beam.free_in_films().on_rigid_bearings()
+    rigid = reactions(replace(concept, beam=freely), *loads, tilt=tilt)
     flags = np.zeros((rigid.sizes["bearing"], rigid.sizes["time"]), dtype=bool)
     meaning = {"units": "1", "long_name": "whether shaft and bearings agree"}
     none = {"solved": 0, "interpolation_error": 0.0}
@@ -177,7 +195,7 @@ def _largest(part: xr.Dataset) -> xr.Dataset:
     if "alignment" in part:
         turned = to_film(part["alignment"].transpose("bearing", "axis").values)
         for name, values in zip(ALIGNED, turned.T):
-            about = f"turn of the bore about {name.split('_')[1]}, aligned with the shaft"
+            about = f"turn of the bore about {name.split('_')[1]}"
             found[name] = of_places(values, "rad", about)
     return labelled(found)
 
@@ -273,7 +291,7 @@ STAGE = Stage(
     sections=lambda scene: (
         *("shaft", "turbine"),
         *(("journal", "rolling") if scene.shaft.coupled else ()),
-        *(("journal",) if follow_the_shaft(scene) and not scene.shaft.coupled else ()),
+        *(("journal",) if turned_bores(scene) and not scene.shaft.coupled else ()),
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

@@ -21,7 +21,8 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
-from loadflow.journal.models.shared_path import Lying, SharedPath, follow_shared
+from loadflow.journal.models.shared_path import Lying, Seats, SharedPath, follow_shared
+from loadflow.numerics.convergence import Convergence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept
@@ -69,8 +70,14 @@ def move_together(scene: Scene, concept: Concept) -> bool:
     films = [support.stiffness == "journal" for support in concept.beam.supports]
     if films != [True, True] or not scene.journal.tilt or scene.journal.rung != "reduced":
         return False
-    tilting = set(concept.bearings) <= {*scene.journal.tilting}
+    tilting = set(concept.bearings) <= {*scene.journal.tilting, *seats_felt(scene, concept)}
     return tilting and all(_followable(scene.journal.at(name)) for name in concept.bearings)
+
+
+def seats_felt(scene: Scene, concept: Concept) -> list[str]:
+    """Bearings of a suspension whose seats hold the shaft: their supports take a moment."""
+    felt = {name for name, support in scene.shaft.coupled.items() if support.takes_moment}
+    return [name for name in concept.bearings if name in scene.journal.on_seats and name in felt]
 
 
 def _followable(options: Journal) -> bool:
@@ -99,9 +106,28 @@ def shaft_on_films(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
         return np.stack([np.interp(time, known, column) for column in columns])
 
     found = np.ones(time.size, dtype=bool)
-    motion = shaft.motion(onto(path.position), onto(path.moment), found, _CONTROL.tolerance or 0.0)
-    about = {"solved": known.size, "interpolation_error": 0.0}
+    residual, iterations = (
+        max(float(one[name].max()) for one in path.paths) for name in ("residual", "iterations")
+    )
+    told = Convergence(True, residual, int(iterations))
+    motion = shaft.motion(onto(path.position), onto(path.moment), found, told)
+    about = {"solved": known.size, "interpolation_error": _between(path, known.size < time.size)}
     return films_dataset(concept, motion, shaft.along).assign_attrs(about)
+
+
+def _between(path: SharedPath, skipped: bool) -> float:
+    """Error of straight lines between the samples of a path, over the largest values.
+
+    An eighth of the second difference, at its largest; none where no sample is skipped.
+    """
+    if not skipped:
+        return 0.0
+    worst = 0.0
+    for values in (path.position, path.tilt, path.moment):
+        if size := np.abs(values).max():
+            bent = np.abs(np.diff(values, 2, axis=0)).max(initial=0.0)
+            worst = max(worst, float(bent / size) / 8.0)
+    return worst
 
 
 def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> FilmsTogether:
@@ -112,14 +138,18 @@ def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
     loadflow.errors.SolverError
         No film to begin with, or a step without an answer.
     """
-    time, force, moment, speed = _series(loads.isel(time=_every(scene, loads)))
-    asked = [scene.shaft.model_dump_json(), scene.journal.model_dump_json(), concept, tilt]
-    told = repr(asked).encode() + b"".join(part.tobytes() for part in (time, force, moment, speed))
+    loads = loads.isel(time=_every(scene, loads))
+    series, turned = _series(loads), bores(scene)
+    lined = [turned[name] * (name in scene.journal.tilting) for name in concept.bearings]
+    bore = to_film(np.array(lined))  # a shell that turns in its seat is never out of line
+    past = past_of(scene, loads)
+    asked = [scene.shaft.model_dump_json(), scene.journal.model_dump_json(), concept, tilt, past]
+    told = repr(asked).encode() + b"".join(part.tobytes() for part in (*series, bore))
     key = hashlib.sha256(told).hexdigest()
     if key not in _KEPT:
         _KEPT.clear()
         try:
-            _KEPT[key] = _followed(scene, concept, loads, tilt)
+            _KEPT[key] = _followed(scene, concept, series, tilt, bore, past)
         except SolverError as error:
             _KEPT[key] = error
     found = _KEPT[key]
@@ -157,7 +187,10 @@ def in_motion(
 _KEPT: dict[str, FilmsTogether | SolverError] = {}  # the last one alone
 
 
-def _series(loads: xr.Dataset) -> tuple[Floats, Floats, Floats, Floats]:
+Series = tuple[Floats, Floats, Floats, Floats]
+
+
+def _series(loads: xr.Dataset) -> Series:
     """Time (n,), force and moment of the hub (3, n), speed (n,)."""
     vectors = (loads[name].transpose("axis", "time") for name in ("hub_force", "hub_moment"))
     force, moment = (np.ascontiguousarray(values.values.astype(float)) for values in vectors)
@@ -169,13 +202,13 @@ def _every(scene: Scene, loads: xr.Dataset) -> slice:
     return slice(None, None, scene.journal.every(time_step(loads)))
 
 
-def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> FilmsTogether:
-    loads = loads.isel(time=_every(scene, loads))
-    time, force, moment, speed = _series(loads)
+def _followed(
+    scene: Scene, concept: Concept, series: Series, tilt: float, bore: Floats, past: Past
+) -> FilmsTogether:
+    """The path along a series in bores that are turned by `bore` (2, 2), rad, after a `past`."""
+    time, force, moment, speed = series
     shaft = shaft_in_films(concept, force, moment, tilt=tilt)
     bearings = [scene.journal.at(name) for name in concept.bearings]
-    turned = bores(scene)
-    bore = to_film(np.array([turned[name] for name in concept.bearings]))
     given = _given(shaft, bore, time.size)
     parts = [_film_of(options, given["force"][:, k], speed) for k, options in enumerate(bearings)]
     geometries, films, begins, warm = zip(*parts)
@@ -187,6 +220,7 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
         lying = Lying(
             series["force"], series["tilt"], series["bend"], *by, felt=shaft.felt,
             touching=np.array([options.contact_film for options in bearings]),
+            seats=_seats(bearings, series["force"]),
         )  # fmt: skip
         found = follow_shared(
             geometries, films, series["time"], series["speed"], lying, control, begins
@@ -199,7 +233,20 @@ def _followed(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) ->
             paths=[one.isel(time=after) for one in found.paths],
         )
 
-    return FilmsTogether(after_past(path, past_of(scene, loads), time), warm)
+    return FilmsTogether(after_past(path, past, time), warm)
+
+
+def _seats(bearings: list[Journal], force: Floats) -> Seats | None:
+    """What holds the shells of both films under loads (n, 2, 2), N; None if neither has a seat."""
+    found = [options.seat for options in bearings]
+    if found == [None, None]:
+        return None
+    load = np.hypot(force[..., 0], force[..., 1])
+    slip = np.full(load.shape, np.inf)
+    for k, seat in enumerate(found):
+        if seat is not None:
+            slip[:, k] = seat.slips_at(load[:, k])
+    return Seats(np.array([np.inf if seat is None else seat.stiffness for seat in found]), slip)
 
 
 def _film_of(
@@ -229,7 +276,7 @@ def _given(shaft: ShaftInFilms, bore: Floats, count: int) -> dict[str, Floats]:
     The tilt is that against bores which are turned by `bore` (2, 2), rad.
     """
     none = np.zeros((4, count))
-    motion = shaft.motion(none, none, np.ones(count, dtype=bool), 0.0)
+    motion = shaft.motion(none, none, np.ones(count, dtype=bool), Convergence(True, 0.0, 0))
     return {
         "force": _film(shaft.force(none)),
         "tilt": _film(shaft.tilt(none, none)) - bore,

@@ -116,7 +116,7 @@ def judged(run: Finished, folder: Path) -> Judged:
         numbers={key: numbers[key] for key in QUANTITIES},
         verdicts=verdicts,
         thrust=carries_thrust(run.scene, run.tables),
-        governs=margin.governs,
+        governs=_governed(margin),
         change=margin.change,
         models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
         checks=_checks(run.tables),
@@ -127,6 +127,12 @@ def judged(run: Finished, folder: Path) -> Judged:
     )
 
 
+def _governed(margin: Margin) -> str:
+    """Which limit is reached first, and which ones have no answer."""
+    none = f"not counted, without an answer: {margin.uncounted}" if margin.uncounted else ""
+    return "; ".join(filter(None, (margin.governs, none)))
+
+
 def _numbers(
     run: Finished, verdicts: Sequence[Verdict], margin: Margin
 ) -> Iterator[tuple[str, Number]]:
@@ -134,8 +140,8 @@ def _numbers(
     error = error_of(run, *margin.models) / abs(margin.power) if margin.power else math.nan
     yield "load_factor", Number(
         margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
-        holds=margin.factor >= 1, case=margin.case, time=margin.time, place=margin.place,
-        note=margin.governs,
+        holds=None if math.isnan(margin.factor) else margin.factor >= 1,
+        case=margin.case, time=margin.time, place=margin.place, note=_governed(margin),
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)

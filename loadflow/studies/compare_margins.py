@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
@@ -77,9 +78,9 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     with a_ISO of each sample anew. Of a journal bearing, the sample with the smallest film and that
     with the largest pressure are solved again at rest under larger or smaller loads, warm and
     around the shaft as it bends under these, where the run did so; of bearings of pads, see
-    `pad_margins`. As in the verdicts, films are those of load cases in which the shaft runs
-    throughout: one that starts, stops or stands must touch its shell, and mixed friction and wear
-    tell what that does to it.
+    `pad_margins`. A limit whose factor has no answer does not count, and is named. As in the
+    verdicts, films are those of load cases in which the shaft runs throughout: one that starts,
+    stops or stands must touch its shell, and mixed friction and wear tell what that does to it.
     """
     found: list[Margin] = []
     rooms = [room for room in ("journal", "thrust", "rolling") if room in tables]
@@ -98,8 +99,9 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         for place in scene.rolling.geometries:
             found += _rolling_margins(scene, folder, place, tables, verdicts)
     known = sorted((one for one in found if math.isfinite(one.factor)), key=lambda one: one.factor)
+    uncounted = "; ".join(one.uncounted for one in found if one.uncounted)
     if not known:
-        return Margin(math.nan)
+        return Margin(math.nan, uncounted=uncounted)
     changes = dict.fromkeys(one.change for one in known if one.change)
     low, high = math.nan, math.nan
     if all(one.drawn is not None for one in known):
@@ -107,7 +109,8 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         low, high = interval(
             Groups.of(first), lambda some: float(np.nanmin([drawn(some) for drawn in draws]))
         )
-    return replace(known[0], change="; ".join([*changes][:_TOLD]), low=low, high=high)
+    told = "; ".join([*changes][:_TOLD])
+    return replace(known[0], change=told, low=low, high=high, uncounted=uncounted)
 
 
 # --- films ----------------------------------------------------------------------------------------
@@ -132,25 +135,28 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        sample = at_time(series_of(folder, case, place), time)
+        sample = at_time(series_of(scene, folder, case, place), time)
         value = cache(partial(_film_value, fast_journal(stated), sample, answer))
         usual = value(1.0, 1.0)
-        if usual > 0:
-            allowed = limit / seen * usual  # motion changes a film by the same share there
-            change = ""
-            if answer == "minimum_film":
-                factor, thinner = film_factors(value, allowed)
-                if thinner > NEVER / WIDEST:
-                    change = f"{place}: {oil_told(stated, thinner)}"
-            else:
-                factor = pressure_factor(value, allowed)
-            power = power_of_load(partial(of_load, value), factor, WIDEST)
-            drawn = of_extreme(table[name], pick, factor, power)
-            models = "journal.film", answer.replace("_", " ")
-            yield Margin(
-                factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
-                power=power,
-            )  # fmt: skip
+        if not usual > 0:
+            why = f"{what} in {place} ({case}): no film at rest under its load"
+            yield Margin(math.nan, place, case, uncounted=why)
+            continue
+        allowed = limit / seen * usual  # motion changes a film by the same share there
+        change = ""
+        if answer == "minimum_film":
+            factor, thinner = film_factors(value, allowed)
+            if thinner > NEVER / WIDEST:
+                change = f"{place}: {oil_told(stated, thinner)}"
+        else:
+            factor = pressure_factor(value, allowed)
+        power = power_of_load(partial(of_load, value), factor, WIDEST)
+        drawn = of_extreme(table[name], pick, factor, power)
+        models = "journal.film", answer.replace("_", " ")
+        yield Margin(
+            factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
+            power=power,
+        )  # fmt: skip
 
 
 def _standing_margin(
@@ -181,7 +187,10 @@ def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, o
     under = grown(sample, load)
     force = under["force"].transpose("sample", "axis").values.astype(float)
     lying = shaft_line(options, under)
-    answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    try:
+        answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    except SolverError:  # a shaft that is tilted by more than the bore lets it
+        return math.nan
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
 
 

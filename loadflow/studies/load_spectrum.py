@@ -26,7 +26,7 @@ Floats = NDArray[np.float64]
 HARDEST = 6
 """Samples that are kept for each way in which a load can be hard."""
 
-SLOWEST = 0.05
+STANDING_SHARE = 0.05
 """Speed, over the fastest, below which a shaft counts as standing."""
 
 VARIABLES = {
@@ -119,7 +119,7 @@ def _of_place(
         for name in set.intersection(*map(set, parts))
     }
     number = np.concatenate([np.full(part["speed"].size, k) for k, part in enumerate(parts)])
-    turning = np.abs(whole["speed"]) > SLOWEST * np.abs(whole["speed"]).max(initial=0.0)
+    turning = np.abs(whole["speed"]) > STANDING_SHARE * np.abs(whole["speed"]).max(initial=0.0)
     by_moment = moment_governs(scene, place, whole["moment"])
     load = np.hypot(*to_film(whole["moment" if by_moment else "force"]).T)
     index, weight = _classed(np.abs(whole["speed"]), load, whole["weight"], turning, classes)

@@ -17,7 +17,7 @@ from loadflow.scene.scene import Candidate, Scene
 from loadflow.scene.shaft import Shaft
 from loadflow.shaft import Beam, ShaftSection, bearing_loads
 from loadflow.shaft.options import Concept
-from loadflow.stages.bores import following
+from loadflow.stages.bores import in_bore
 
 Array = NDArray[np.float64]
 
@@ -132,8 +132,8 @@ class BentShaft:
     def lying(self, candidate: Candidate, place: str, samples: xr.Dataset) -> xr.Dataset:
         """Samples of a place with `tilt` and `curvature` of the shaft that fits a candidate.
 
-        And the `alignment` of a bore that follows it in their mean. The shaft is that which bends:
-        how it tilts in the clearances of a candidate is left out.
+        And the `alignment` of its bore. The shaft is that which bends: how it tilts in the
+        clearances of a candidate is left out.
 
         Parameters
         ----------
@@ -161,7 +161,7 @@ class BentShaft:
         journal = candidate.journal
         if journal is None or place not in journal.bearings:
             return samples
-        return following(samples) if journal.at(place).alignment == "mean" else samples
+        return in_bore(samples, journal.at(place))
 
     @property
     def _floats(self) -> bool:

@@ -31,12 +31,15 @@ from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
     SHARED,
     Means,
+    _as_run,
+    _base,
     compare,
     shared_loads,
 )
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
+from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
@@ -189,6 +192,21 @@ def test_rolling_bearings_are_asked_for_as_much_accuracy_as_where_nothing_is_sai
     given = scene_of(cube, accuracy="given")
     one = candidate_scene(given, "two-spherical", given.candidates["two-spherical"], 200)
     assert one.accuracy == "given"
+
+
+def test_no_effect_of_the_shared_loads_is_open_to_the_plan_of_a_candidate(tmp_path):
+    """Not even one that is left out by saying nothing, as dynamic stall is."""
+    loads = {"wind_speeds": [12.0], "seeds": 1}
+    words = {"results": ["loads.statistics"], "accuracy": 0.2}
+    scene = make_scene({"name": "shared", "loads": loads} | words)
+    shared = _base(scene)
+    (tmp_path / "manifest.json").write_text(json.dumps({"wanted": shared.digest()}))
+    (tmp_path / "scene.toml").write_text(make_plan(shared).scene.to_toml())
+    ran = _as_run(shared, scene, tmp_path)
+    assert ran.loads.dynamic_stall is None
+    rotor = [one for one in EFFECTS if one.model == "loads"]
+    assert rotor
+    assert not [one.name for one in rotor if one.is_open(ran)]
 
 
 def test_what_no_ladder_knows_says_so_and_what_is_0_has_no_share():

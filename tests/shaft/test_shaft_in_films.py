@@ -11,14 +11,16 @@ import xarray as xr
 from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
 from loadflow.scene.scene import Scene, make_scene
-from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint
+from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint, reactions
 from loadflow.shaft import bearing_loads as suspended
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages import shaft_in_films as shaft_in_films_stage
+from loadflow.stages.film_past import AT_REST
 from loadflow.stages.film_support import film_model
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.studies.compare_factor import at_place, grown
 from loadflow.turbines import load_turbine
 
 STEPS, STEP = 600, 0.05
@@ -48,9 +50,9 @@ def scene_of(supports: list[dict] | None = None, modulus: float = 2.1e11, **film
     )
 
 
-def loads_of(swing: float = 0.3, steps: int = STEPS) -> xr.Dataset:
+def loads_of(swing: float = 0.3, steps: int = STEPS, step: float = STEP) -> xr.Dataset:
     """Loads of a hub: a mean, and a `swing` at three times the speed of the shaft."""
-    time, speed = STEP * np.arange(steps), np.full(steps, 1.2)
+    time, speed = step * np.arange(steps), np.full(steps, 1.2)
     phase, lasting = 3.0 * 1.2 * time, np.ones(steps)
     force = np.stack([5e5 * lasting, 1e5 * lasting, -1.1e6 * lasting])
     moment = np.stack(
@@ -93,6 +95,13 @@ def test_a_shaft_on_springs_lies_as_its_reactions_say():
         assert np.allclose(getattr(motion, name), known[name].values, rtol=1e-9, atol=1e-15), name
 
 
+def test_a_shaft_turns_freely_in_its_films_but_in_a_single_one():
+    film = BearingSupport(stiffness="journal", takes_moment=True, housing_tilt=1e9)
+    two, one = (Beam(supports=(film,) * count).free_in_films() for count in (2, 1))
+    assert [part.takes_moment for part in two.supports_of(2)] == [False, False]
+    assert one.supports_of(1) == (replace(film, stiffness="given"),)
+
+
 def test_a_shaft_lies_in_films_of_two_bearings_alone():
     concept = MomentBearing(beam=Beam())
     with pytest.raises(InputError, match="two bearings"):
@@ -108,6 +117,40 @@ def test_a_stiff_shaft_is_tilted_by_where_it_is_in_both_films():
     bent = np.abs(tilt[:, 0, ::-1] * [1.0, -1.0] - slope).max()
     assert np.abs(slope).max() > 5e-5
     assert bent < 1e-3 * np.abs(slope).max()
+
+
+def test_under_more_load_the_clearances_bound_the_tilt_of_a_shaft_in_films(monkeypatch):
+    """Followed anew under 1.6 times all loads, it is tilted half as far off."""
+    scene, loads = scene_of(lubricant={"viscosity": 0.08}), loads_of(steps=200)
+    found = shaft.bearing_loads(scene, None, {"loads": loads})
+    hub = ("hub_force", "hub_moment")
+    more = loads.assign({name: 1.6 * loads[name] for name in hub})
+    monkeypatch.setattr(reactions, "GRAVITY", 1.6 * reactions.GRAVITY)
+    anew = shaft.bearing_loads(scene, None, {"loads": more})
+    for name in ("N", "N2"):
+        own, known = at_place(scene, found, name), anew["tilt"].sel(bearing=name)
+        off, whole = (
+            float(np.abs(tilt - known).isel(time=slice(50, None)).max())
+            for tilt in (grown(own, 1.6)["tilt"], 1.6 * own["tilt"])
+        )
+        assert off < 0.5 * whole, name
+
+
+def test_a_stiff_shaft_tilts_in_its_films_as_far_as_the_clearances_let_it():
+    scene = scene_of(modulus=2.1e14)
+    own = at_place(scene, shaft.bearing_loads(scene, None, {"loads": loads_of()}), "N")
+    seen, twice, most = (
+        np.linalg.norm(grown(own, load)["tilt"].transpose("time", "axis"), axis=1).max()
+        for load in (1.0, 2.0, 1e3)
+    )
+    assert seen < twice < 1.5 * seen
+    assert twice < most < 2 * 1e-3 / 5.0
+
+
+def test_a_shaft_on_rigid_bearings_has_no_tilt_in_clearances():
+    scene = scene_of([{"radial": 3e9}, {"radial": 3e9}], tilt=False)
+    found = shaft.bearing_loads(scene, None, {"loads": loads_of(steps=5)})
+    assert "clearance_tilt" not in at_place(scene, found, "N")
 
 
 def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):
@@ -223,7 +266,66 @@ def test_a_path_that_stops_leaves_the_shaft_on_rigid_bearings(monkeypatch):
     with pytest.warns(ValidityWarning, match="stops at t = 1 s"):
         found = shaft.bearing_loads(scene, None, {"loads": loads})
     assert not found["converged"].any()
-    assert np.abs(found["tilt"]).max() < 1e-4
+    assert 0.0 < np.abs(found["tilt"]).max() < 1e-4
+    assert not found["moment"].any()  # as no film says that it takes one
+
+
+SOFT = {
+    "shaft": {"modulus": 2.1e10},
+    "housing": {
+        "supports": [{"stiffness": "journal", "takes_moment": True, "housing_tilt": 1e9}] * 2
+    },
+}
+
+
+@pytest.mark.parametrize("soft", SOFT)
+def test_the_path_of_a_soft_shaft_or_housing_does_not_hang_on_the_step(soft):
+    """Moments of the films turn shaft or bores as much as positions do."""
+    scene = scene_of(**SOFT[soft])
+    found = []
+    for step in (0.05, 0.0125):
+        loads = loads_of(steps=round(15.0 / step), step=step)
+        path = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+        found.append(path.moment[:: round(0.05 / step)][-150:])
+    coarse, fine = found
+    assert np.abs(coarse - fine).max() < 0.02 * np.abs(fine).max()
+
+
+def test_samples_between_those_that_films_take_tell_how_far_they_may_be_off(moved):
+    _, loads, every = moved
+    found = shaft.bearing_loads(scene_of(step=0.2), None, {"loads": loads})
+    true, taken = 0.0, slice(None, None, 4)
+    for name in ("moment", "displacement", "tilt"):
+        known = every[name].transpose("time", ...).isel(time=slice(None, -3))
+        between = known.isel(time=taken).interp(time=known["time"])
+        true = max(true, float(np.abs(between - known).max() / np.abs(known).max()))
+    assert every.attrs["interpolation_error"] == 0.0
+    assert true > 0.01
+    assert 0.7 * true < found.attrs["interpolation_error"] < 2.0 * true
+
+
+def test_how_hard_its_steps_were_is_told_of_a_path(moved):
+    scene, loads, found = moved
+    paths = films_together(scene, scene.shaft.concepts[0], loads, TILT).path.paths
+    assert found.attrs["residual"] == max(float(one["residual"].max()) for one in paths)
+    assert found.attrs["iterations"] == max(int(one["iterations"].max()) for one in paths) > 1
+
+
+def test_a_path_is_kept_for_its_bores_and_its_past(moved, monkeypatch):
+    scene, loads, _ = moved
+    concept = scene.shaft.concepts[0]
+
+    def tilt() -> np.ndarray:
+        return films_together(scene, concept, loads, TILT).path.tilt
+
+    straight = tilt()
+    with monkeypatch.context() as other:
+        other.setattr(shaft_in_films_stage, "past_of", lambda scene, loads: AT_REST)
+        at_rest = tilt()
+    turned = {name: np.array([0.0, 1e-4, 0.0]) for name in concept.bearings}
+    monkeypatch.setattr(shaft_in_films_stage, "bores", lambda scene: turned)
+    assert np.abs(at_rest - straight)[0].max() > 1e-6
+    assert np.abs(tilt() - straight).max() > 5e-5
 
 
 def test_films_that_store_heat_cool_down_to_their_balance():

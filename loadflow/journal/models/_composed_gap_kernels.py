@@ -294,29 +294,8 @@ def _touch_bore(film, work, q):
         force, rise = _between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
         pressed, _ = _between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
         normal += w * pressed
-        c, s = ex / ratio, ey / ratio
-        along = w * rise
-        aside = w * force / ratio
-        xx = along * c * c + aside * s * s
-        xy = (along - aside) * c * s
-        yy = along * s * s + aside * c * c
-        load[0] += w * force * c
-        load[1] += w * force * s
-        load[2] -= w * force * s * z
-        load[3] += w * force * c * z
-        stiffness[0, 0] += xx
-        stiffness[0, 1] += xy
-        stiffness[0, 2] -= xy * z
-        stiffness[0, 3] += xx * z
-        stiffness[1, 1] += yy
-        stiffness[1, 2] -= yy * z
-        stiffness[1, 3] += xy * z
-        stiffness[2, 2] += yy * z * z
-        stiffness[2, 3] -= xy * z * z
-        stiffness[3, 3] += xx * z * z
-    for a in range(4):
-        for b in range(a):
-            stiffness[a, b] = stiffness[b, a]
+        push(load, stiffness, z, ex / ratio, ey / ratio, w * force, w * rise, w * force / ratio)
+    fill_upper(stiffness)
     return normal
 
 
@@ -395,9 +374,7 @@ def _touch_shell(film, work, q):
                     value = yielding.values[g, k]
                     _add_modes(pressed[:, i, k], z, value * low_x, value * low_y)
                     _add_modes(pressed[:, right, k], z, value * high_x, value * high_y)
-    for a in range(4):
-        for b in range(a):
-            stiffness[b, a] = stiffness[a, b]
+    fill_upper(stiffness)
     return normal
 
 
@@ -408,6 +385,25 @@ def _across(values, pressure, outside):
     for k in range(values.size):
         total += values[k] * (pressure[k] - outside)
     return total
+
+
+@inner
+def push(load, stiffness, z, c, s, force, along, aside):
+    """Add a force at `z` that pushes the shaft back from (c, s), and what it rises by there.
+
+    By a motion along that way, and aside, into the lower half of `stiffness` (4, 4).
+    """
+    _add_modes(load, z, force * c, force * s)
+    xx, yy = along * c * c + aside * s * s, along * s * s + aside * c * c
+    _take_modes(stiffness, z, -xx, -(along - aside) * c * s, -yy)
+
+
+@inner
+def fill_upper(stiffness):
+    """Make a stiffness (4, 4) symmetric by its lower half."""
+    for a in range(4):
+        for b in range(a):
+            stiffness[b, a] = stiffness[a, b]
 
 
 @inner

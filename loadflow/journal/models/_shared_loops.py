@@ -1,7 +1,8 @@
 """Compiled loop of one shaft in two reduced films with effects: a march of both through time.
 
-The shaft is rigid between both films: four coordinates say where it is in them. Films and shaft
-are solved by one Newton iteration, with steps, factors and limits as in `_composed_loops`.
+Four coordinates say where the shaft is in both films, and the four moments of these how it bends
+and what it rests on turns. Films, shaft and moments are solved by one Newton iteration, with steps,
+factors and limits as in `_composed_loops`.
 """
 
 from __future__ import annotations
@@ -15,9 +16,11 @@ from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
+    fill_upper,
     has_gap,
     narrowest,
     place,
+    push,
     share_of_step,
     touch,
     turn,
@@ -35,6 +38,7 @@ from loadflow.journal.models._composed_loops import (
 from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
@@ -43,6 +47,10 @@ from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
 from loadflow.numerics.references import refer
 
 Array = NDArray[np.float64]
+
+
+COORDINATES = 4
+SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films; then those of seats
 
 
 class Side(NamedTuple):
@@ -54,12 +62,12 @@ class Side(NamedTuple):
         Its constants.
     work : ComposedWork
         Its work arrays, which hold the film at the first time.
-    lies : array (4, 4)
-        Place of the shaft in it by the four coordinates.
-    felt : array (4, 4)
-        What the coordinates feel of its load.
-    turned : array (4, 4)
-        Place by the moments of both films, N, over the radius of each; of (2,) two rows are used.
+    lies : array (4, m)
+        Place of the shaft in it by the coordinates, and by the moments of both films and seats.
+    slipped : array (4,)
+        What the shell has slid in its seat, in the units of the place: two turns.
+    felt : array (4, SHAFT)
+        What the coordinates feel of its load, and which of it these moments are.
     given : array (n, 4)
         Place where coordinates and moments are 0.
     bend : array (n, 2)
@@ -84,8 +92,8 @@ class Side(NamedTuple):
     film: Composed
     work: ComposedWork
     lies: Array
+    slipped: Array
     felt: Array
-    turned: Array
     given: Array
     bend: Array
     stop: Array
@@ -103,15 +111,21 @@ class Shared(NamedTuple):
 
     Attributes
     ----------
-    load : array (n, 4)
+    load : array (n, COORDINATES)
         What the coordinates are to feel, N.
-    at, before, new, step, missing, moment : array (4,)
-        Coordinates at the last two times and at the next, their step, the load that is missing, and
-        moments of both films at the last time.
-    system : array (4, 5)
+    at, before, new, step, missing : array (m,)
+        Unknowns of the shaft at the last two times and at the next, their step, and what is missing
+        in their equations, N. First the coordinates, then the moments of the films, N, over the
+        radius of each; with seats, moments that these would hold if they did not slide.
+    system : array (m, m + 1)
         Linear system of a step.
+    slip, held : array (n, 2), array (2,)
+        Moment at which each seat slides, N, over the radius of its film; share of its own one that
+        it holds. Without seats (0, 2) and (0,).
     steps : array (1,)
         Step to the last time, s.
+    told : array (2,)
+        Residual and iterations of the last Newton iteration.
     """
 
     load: Array
@@ -120,18 +134,30 @@ class Shared(NamedTuple):
     new: Array
     step: Array
     missing: Array
-    moment: Array
     system: Array
+    slip: Array
+    held: Array
     steps: Array
+    told: Array
 
 
 @inner
-def _lay(side, q, coordinates, moment, n, to):
-    """Place `q` (4,) of the shaft in a film by its coordinates, between the times n − 1 and n."""
+def _lay(side, q, unknowns, n, to):
+    """Place `q` (4,) of the shaft in a film by its unknowns, between the times n − 1 and n."""
     for a in range(4):
-        q[a] = side.given[n - 1, a] + to * (side.given[n, a] - side.given[n - 1, a])
-        for b in range(4):
-            q[a] += side.lies[a, b] * coordinates[b] + side.turned[a, b] * moment[b]
+        last, next_ = side.given[n - 1, a], side.given[n, a]
+        q[a] = last + to * (next_ - last) - side.slipped[a]
+        for b in range(unknowns.size):
+            q[a] += side.lies[a, b] * unknowns[b]
+
+
+@inner
+def _move(side, step, share):
+    """Step of a film's place by a share of the shaft's."""
+    for a in range(4):
+        side.work.step[a] = 0.0
+        for b in range(step.size):
+            side.work.step[a] += share * side.lies[a, b] * step[b]
 
 
 @once
@@ -148,32 +174,13 @@ def _stop(side):
             continue
         force = side.stop[1] * (overlap / gap) ** 2
         along, aside = 2.0 * side.stop[1] * overlap / (gap * gap), force / ratio
-        c, s = ex / ratio, ey / ratio
-        xx = along * c * c + aside * s * s
-        xy = (along - aside) * c * s
-        yy = along * s * s + aside * c * c
-        load[0] += force * c
-        load[1] += force * s
-        load[2] -= force * s * z
-        load[3] += force * c * z
-        stiffness[0, 0] += xx
-        stiffness[0, 1] += xy
-        stiffness[0, 2] -= xy * z
-        stiffness[0, 3] += xx * z
-        stiffness[1, 1] += yy
-        stiffness[1, 2] -= yy * z
-        stiffness[1, 3] += xy * z
-        stiffness[2, 2] += yy * z * z
-        stiffness[2, 3] -= xy * z * z
-        stiffness[3, 3] += xx * z * z
-    for a in range(4):
-        for b in range(a):
-            stiffness[a, b] = stiffness[b, a]
+        push(load, stiffness, z, ex / ratio, ey / ratio, force, along, aside)
+    fill_upper(stiffness)
 
 
 @once
 def _residual(one, other, shared, speed, rate, scale):
-    """Largest residual of both films and of the load that is missing, which goes into `missing`."""
+    """Largest residual of both films and of what is missing, which is taken off `missing`."""
     residual = 0.0
     for k in range(2):
         side = one if k == 0 else other
@@ -189,11 +196,11 @@ def _residual(one, other, shared, speed, rate, scale):
             return np.inf
         if film.give > 0.0 and not has_gap(film, work):
             return np.inf
-        for b in range(4):
+        for b in range(SHAFT):
             for a in range(4):
                 shared.missing[b] -= side.felt[a, b] * (work.load[a] + work.touch[0, a])
     total = 0.0
-    for b in range(4):
+    for b in range(shared.missing.size):
         total += shared.missing[b] ** 2
     return max(residual, np.sqrt(total) / scale)
 
@@ -201,10 +208,11 @@ def _residual(one, other, shared, speed, rate, scale):
 @once
 def _solve(one, other, shared, speed, rate, fresh):
     """Newton step of the shaft into `step`, and of both films into their columns; if there is."""
-    system, size = shared.system, 4
+    system, size, many = shared.system, 4, shared.missing.size
     system[:] = 0.0
-    for b in range(size):
-        system[b, size] = -shared.missing[b]
+    for b in range(many):
+        system[b, many] = -shared.missing[b]
+    hold_slopes(shared, SHAFT)
     for k in range(2):
         side = one if k == 0 else other
         film, work = side.film, side.work
@@ -220,17 +228,19 @@ def _solve(one, other, shared, speed, rate, fresh):
         substitute(work.matrix, work.columns, columns)
         follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
         carry(film, work, size)
-        for c in range(size):
+        for c in range(SHAFT):
             for a in range(size):
-                system[c, size] -= side.felt[a, c] * work.carried[0, a]
+                if side.felt[a, c] == 0.0:
+                    continue
+                system[c, many] -= side.felt[a, c] * work.carried[0, a]
                 for b in range(size):
                     slope = work.carried[1 + b, a] - work.touch[1 + b, a]
-                    for d in range(size):
+                    for d in range(many):
                         system[c, d] += side.felt[a, c] * slope * side.lies[b, d]
-    if not solve_system(system, size):
+    if not solve_system(system, many):
         return False
-    for b in range(size):
-        shared.step[b] = system[b, size]
+    for b in range(many):
+        shared.step[b] = system[b, many]
     return True
 
 
@@ -250,16 +260,13 @@ def _shortened(one, other, shared):
     for k in range(2):
         side = one if k == 0 else other
         film, work = side.film, side.work
-        for a in range(4):
-            work.step[a] = 0.0
-            for b in range(4):
-                work.step[a] += share * side.lies[a, b] * shared.step[b]
+        _move(side, shared.step, share)
         if film.give == 0.0 and film.ring.shaped:
             way = work.step[0], work.step[1], work.step[2], work.step[3]
             share *= share_of_step(film, work, way[0], way[1], way[2], way[3], KEPT)
         elif film.give == 0.0:
             share *= share_inside(film, work, work.step)
-    for b in range(4):
+    for b in range(shared.step.size):
         shared.step[b] *= share
 
 
@@ -283,10 +290,7 @@ def _advance(one, other, shared):
         for k in range(2):
             side = one if k == 0 else other
             film, work = side.film, side.work
-            for a in range(4):
-                work.step[a] = 0.0
-                for b in range(4):
-                    work.step[a] += side.lies[a, b] * shared.step[b]
+            _move(side, shared.step, 1.0)
             correct(film, work, work.step, 4, share)
             for a in range(4):
                 side.new[a] += (share - done) * work.step[a]
@@ -294,7 +298,7 @@ def _advance(one, other, shared):
             if film.give > 0.0:
                 least = least_one if k == 0 else least_other
                 open_yet = open_yet and narrowest(film, work) >= least
-        for b in range(4):
+        for b in range(shared.new.size):
             shared.new[b] += (share - done) * shared.step[b]
         done = share
         if open_yet or share < ROOM:
@@ -316,14 +320,17 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
         thin = side.thin[0]
         turn(side.film, side.work, thin * speed, side.thin[1] / (thin * thin))
         place(side.film, side.work, side.new)
-    for b in range(4):
+    for b in range(COORDINATES):
         total += (shared.load[n - 1, b] + to * (shared.load[n, b] - shared.load[n - 1, b])) ** 2
     scale = max(np.sqrt(total), 0.5e-3 * one.film.ring.scale * one.film.ring.area)
     spent, last = 0, np.inf
     while True:
-        for b in range(4):
+        for b in range(COORDINATES):
             shared.missing[b] = shared.load[n - 1, b]
             shared.missing[b] += to * (shared.load[n, b] - shared.load[n - 1, b])
+        for b in range(COORDINATES, SHAFT):
+            shared.missing[b] = shared.new[b]
+        hold(shared, SHAFT, n, to)
         residual = _residual(one, other, shared, speed, rate, scale)
         if residual < tolerance:
             return residual, spent, True
@@ -365,8 +372,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
     """Steps of both films and of the shaft through all times; returns how many times are done.
 
     They go on from `begin`: from films at rest at the first time, or from those that are there.
-    Steps are those of `_composed_loops.solve`: of second order, cut where Newton fails. How the
-    moments of the films bend the shaft is that of the last time.
+    Steps are those of `_composed_loops.solve`: of second order, cut where Newton fails.
     """
     one, other, shared = refer(first), refer(second), refer(shared)
     _set_out(one, other, begin)
@@ -376,8 +382,6 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
         share, done, spent = 1.0, 0.0, 0
         for k in range(2):
             side = one if k == 0 else other
-            shared.moment[2 * k] = side.rows[n - 1, at.MOMENT_X]
-            shared.moment[2 * k + 1] = side.rows[n - 1, at.MOMENT_Y]
             if side.warmth.on:
                 side.thin[0] = slow_heat(
                     side.warmth, side.states, n, whole, speed, side.rows, at.DISSIPATION, at.NORMAL
@@ -389,25 +393,25 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
             rate, weight, weight_before, ratio = two_steps(step, step_before)
             omega = speed[n - 1] + to * (speed[n] - speed[n - 1])
             ahead = step_before > 0.0
-            for b in range(4):
+            for b in range(shared.new.size):
                 shared.new[b] = shared.at[b]
                 if ahead:
                     shared.new[b] += ratio * (shared.at[b] - shared.before[b])
             for k in range(2):
                 side = one if k == 0 else other
                 film, work = side.film, side.work
-                _lay(side, side.new, shared.new, shared.moment, n, to)
+                _lay(side, side.new, shared.new, n, to)
                 for a in range(2):
                     work.bend[a] = side.bend[n - 1, a]
                     work.bend[a] += to * (side.bend[n, a] - side.bend[n - 1, a])
                 ahead = ahead and (film.give > 0.0 or leaves_room(film, work, side.place, side.new))
             if not ahead:
-                for b in range(4):
+                for b in range(shared.new.size):
                     shared.new[b] = shared.at[b]
             for k in range(2):
                 side = one if k == 0 else other
                 work = side.work
-                _lay(side, side.new, shared.new, shared.moment, n, to)
+                _lay(side, side.new, shared.new, n, to)
                 thin = side.thin[0]
                 predict(work, ratio, ahead, thin * weight, thin * weight_before)
                 if not ahead or abs(thin * rate - work.kept[1]) > ALIKE * work.kept[1]:
@@ -416,6 +420,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                 one, other, shared, n, to, omega, rate, tolerance, max_iterations
             )
             spent += iterations
+            shared.told[0], shared.told[1] = residual, iterations
             if converged:
                 for k in range(2):
                     side = one if k == 0 else other
@@ -424,7 +429,8 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                         side.past[a], side.place[a] = side.place[a], side.new[a]
                     for a in range(2):
                         side.past[4 + a], side.past[6 + a] = side.past[6 + a], side.work.bend[a]
-                for b in range(4):
+                slide(one, other, shared, SHAFT)
+                for b in range(shared.new.size):
                     shared.before[b], shared.at[b] = shared.at[b], shared.new[b]
                 step_before, share, done = step, min(2.0 * share, 1.0), to
                 shared.steps[0] = step

@@ -8,7 +8,7 @@ import numpy as np
 
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import floating, floats_in_films
+from loadflow.scene.shaft_place import Suspensions, floating, floats_in_films
 from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -23,7 +23,19 @@ _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtyp
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
 
 
-def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, dict[str, Floats]]:
+@dataclass(frozen=True)
+class Place:
+    """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n), m.
+
+    NaN where the shaft stands. `load` (5, n), N, presses on it.
+    """
+
+    position: Floats
+    film: Floats
+    load: Floats
+
+
+def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, dict[str, Place]]:
     """Slope of a shaft in the clearances of its outermost films, and film at mid-plane of each.
 
     Closed charts say where a film lies under the mean load, and under its largest deviation, which
@@ -35,35 +47,35 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
     -------
     slope : ndarray, shape (5, n, 3)
         In the frame of the cube, rad: under the mean load, and pushed either way along y and z.
-    films : dict of ndarray, shape (5, n)
-        Smallest film of each bearing, m; NaN where the shaft stands.
+    places : dict of Place
+        Where the film of each bearing lies.
     """
     where = dict(zip(concept.bearings, concept.positions))
-    places = {name: _place(at, name, (-1.0) ** k) for k, name in enumerate(names)}
+    places = {name: place_of(at, name, (-1.0) ** k) for k, name in enumerate(names)}
     first, last = names[0], names[-1]
     moved = places[last].position - places[first].position
     along = where[last] - where[first]
     # what moves along y turns about z, what moves along z about −y
     turned = np.stack([0.0 * moved[..., 0], -moved[..., 2], moved[..., 1]], axis=-1)
-    return turned / along, {name: places[name].film for name in names}
+    return turned / along, places
 
 
-@dataclass(frozen=True)
-class _Place:
-    """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n)."""
-
-    position: Floats
-    film: Floats
+def _moved(slope: Floats) -> Floats:
+    """How far a shaft moves along y and z with each metre of its length, by its slope (…, 3)."""
+    return np.stack([0.0 * slope[..., 0], slope[..., 2], -slope[..., 1]], axis=-1)
 
 
-def _place(at: Situation, name: str, sign: float) -> _Place:
+def place_of(at: Situation, name: str, sign: float) -> Place:
+    """Place of a film under the mean load, and pushed by its deviation × `sign` as by `slopes`."""
     own, load = at.scene.journal.at(name), at.bearings[name]
     held = own.at_temperature(own.heat.inlet_temperature) if own.heat else own
     size = own.geometry
     width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
     bearing = replace(size, shape=CYLINDER, relief=(), width=width)
     force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
-    force = to_film(force * width / size.width)
+    force = to_film(force)
+    pressed = np.hypot(force[..., 0], force[..., 1])
+    force = force * width / size.width
     position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
     if at.turns.any():
         some = force[:, at.turns]
@@ -74,73 +86,95 @@ def _place(at: Situation, name: str, sign: float) -> _Place:
         lies = np.asarray(found.eccentricity).reshape(some.shape)
         position[:, at.turns] = from_film(lies)
         film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
-    return _Place(position, film)
+    return Place(position, film, pressed)
 
 
-def closed_ends(at: Situation) -> dict[str, float]:
-    """Slope in the clearances × half the width / film at mid-plane: what it closes at one end.
+@dataclass(frozen=True)
+class _Ends:
+    """A film by the ends of its bearing: `share` of it that these take, and `film` (5, n), m."""
 
-    By film that a shaft floats in, at its largest. The slope is that of `slopes` less the turn of
-    the bores; ``alignment = "mean"`` takes the mean of all points.
+    share: Floats
+    film: Floats
+
+
+def _ends(at: Situation) -> dict[str, _Ends]:
+    """Films that a shaft floats in, and what the ends take of them: their gap is c − |e ± θ B/2|.
+
+    The slope θ is that of `slopes` less the turn of the bores; ``alignment = "mean"`` takes the
+    mean of all points.
     """
     found = {}
     for _, concept, names in floating(at.scene.shaft, at.scene.journal):
-        slope, films = slopes(at, concept, names)
-        for name, film in films.items():
-            if name not in at.scene.journal.tilting:
+        slope, places = slopes(at, concept, names)
+        for name, place in places.items():
+            if name not in at.scene.journal.tilting or not at.turns.any():
                 continue
             own = at.scene.journal.at(name)
-            if own.alignment == "mean":
-                bore = slope[0, at.turns].mean(axis=0) if at.turns.any() else np.zeros(3)
-            else:
-                bore = from_film(own.alignment)
-            away = np.linalg.norm(slope - bore, axis=-1)
-            share = np.nan_to_num(0.5 * own.geometry.width * away / film)
-            found[name] = float(share.max())
+            mean = own.alignment == "mean"
+            bore = slope[0, at.turns].mean(axis=0) if mean else from_film(own.alignment)
+            away = 0.5 * own.geometry.width * _moved(slope - bore)[:, at.turns]
+            lies, film = place.position[:, at.turns], place.film[:, at.turns]
+            ends = [np.linalg.norm(lies + side, axis=-1) for side in (away, -away)]
+            share = (np.maximum(*ends) - np.linalg.norm(lies, axis=-1)) / film
+            found[name] = _Ends(share, film)
     return found
 
 
-def _indicator(at: Situation) -> Sizes:
-    """What `closed_ends` x changes: of the film 0.3 x³, over what is left of it.
+def closed_ends(at: Situation) -> dict[str, float]:
+    """What the ends of a bearing take of its film at mid-plane, which stays where it is.
 
-    Pilots of the sized cylindrical bores of 1.5, 5 and 15 MW, 8 to 24 m/s, x from 0.9 to 3.9: the
-    film within a factor of four where its ends do not touch; where they do, from x = 2.7 on, the
-    roughness is left of it, 40 times less than without.
+    By film that a shaft floats in, at its largest.
     """
-    found = [
-        {
-            "eccentricity ratio": 0.03 * x,
-            "minimum film": 0.3 * x**3,
-            "maximum pressure": min(0.1 * x**2, 0.9),
-            "friction power": 0.02 * x,
-        }
-        for x in closed_ends(at).values()
-    ]
-    return largest(found)
+    return {name: float(ends.share.max()) for name, ends in _ends(at).items()}
 
 
-def _stated(scene: Scene) -> bool:
-    """Whether a scene says what its shaft rests on, or that films are not those it floats in."""
-    found = floating(scene.shaft, scene.journal)
+def _indicator(at: Situation) -> Sizes:
+    """What the ends take, x, changes, at the same load.
+
+    Slices of a film as thin as h carry ∝ 1/h, so that mid-plane rises by x/tanh x and the film at
+    the end is 2x/(e^2x − 1) of that of an aligned shaft: it closes, up to where surfaces touch. The
+    rest is calibrated on pilots of sized cylindrical bores, docs/physics.md.
+    """
+    found = []
+    for name, ends in _ends(at).items():
+        x = np.maximum(ends.share, 1e-9)
+        left = np.maximum(
+            ends.film * 2.0 * x / np.expm1(2.0 * x), at.scene.journal.at(name).contact_film
+        )
+        most = float(x.max())
+        found.append(
+            {
+                "eccentricity ratio": 0.03 * most,
+                "minimum film": max(float(ends.film.min() / left.min()) - 1.0, 0.0),
+                "maximum pressure": 1.0 - 1.0 / (1.0 + 0.4 * most**2),
+                "friction power": 0.02 * most,
+            }
+        )
+    return largest(found) if found else {}
+
+
+def stated(scene: Scene, of: Suspensions) -> bool:
+    """Whether a scene says what shafts rest on, or that films are not those they float in."""
+    found = of(scene.shaft, scene.journal)
     other = {key for key, value in _TOGETHER.items() if getattr(scene.journal, key) != value}
-    stated = any(one.beam is not None and one.beam.supports for _, one, _ in found)
-    return stated or bool(other & scene.journal.model_fields_set)
+    rests = any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    return rests or bool(other & scene.journal.model_fields_set)
 
 
-def _switched(scene: Scene, on: bool) -> Scene | None:
-    """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
+def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
+    """The scene with shafts on rigid bearings, or on films that they are followed with in motion.
 
-    None where these are no films that can be, or the shaft stands at times.
+    None where these are no films that can be, or the shaft stands at times. `of` says which shafts.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
     if journal is None or (on and not always_turns(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
-    if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
+    if on and any(held & {*one.bearings} for _, one, _ in of(scene.shaft, scene.journal)):
         return None  # their moment, which no model feeds back, would hold the shaft
     support = BearingSupport(stiffness="journal", takes_moment=True)
     changed = {}
-    for kind, concept, films in floating(scene.shaft, scene.journal):
+    for kind, concept, films in of(scene.shaft, scene.journal):
         if concept.beam is not None and on:
             supports = (support,) * len(films)
             changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
@@ -149,7 +183,7 @@ def _switched(scene: Scene, on: bool) -> Scene | None:
     found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
     together = all(
         move_together(found, concept)
-        for _, concept, _ in floating(found.shaft, found.journal)
+        for _, concept, _ in of(found.shaft, found.journal)
         if concept.beam is not None
     )
     return found if not on or together else None
@@ -164,11 +198,10 @@ CLEARANCES = Effect(
     model="shaft",
     keys=("shaft.two_point", "shaft.integrated", "shaft.direct_drive"),
     is_on=lambda scene: floats_in_films(scene.shaft, scene.journal),
-    switched=_switched,
-    stated=_stated,
+    switched=lambda scene, on: switched(scene, on, floating),
+    stated=lambda scene: stated(scene, floating),
     indicator=_indicator,
-    larger=lambda scene: 7.0,
-    smaller=5.0,
+    smaller=20.0,  # 13 at 15 MW, whose seed of 60 s swings less than is estimated
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
     'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '

@@ -6,18 +6,18 @@ from collections.abc import Callable
 from typing import TypedDict
 
 import numpy as np
+import xarray as xr
 
 from loadflow.data import gains
 from loadflow.journal import Turbulence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floats_in_films
-from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.clearances import closed_ends
 from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
-from loadflow.stages.effects.situation import HOLLOW, Situation
+from loadflow.stages.effects.situation import Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
@@ -144,29 +144,18 @@ def turn_of_bore(journal: Journal) -> float:
 def _tilt(at: Situation) -> Sizes:
     """Slope of the shaft in its bore × width / (2 film): what tilt takes from the film at one end.
 
-    A cantilever of the span between the bearings under the moment at the hub, as wide as the beam
-    of the suspension, or as the bearing with a bore of `HOLLOW` where there is none. The shares in
-    the answers are those of a width of 3/4 of the diameter, tilted in the plane of the load. A
-    shaft that films are fed back to also tilts in their clearances (`closed_ends`).
+    The slope is that of the beam, bent by forces and moments at the hub. The shares in the answers
+    are those of a width of 3/4 of the diameter, tilted in the plane of the load. A shaft that films
+    are fed back to also tilts in their clearances (`closed_ends`).
     """
     scene, found = at.scene, []
-    geometry = scene.journal.geometry
     floats = closed_ends(at) if floats_in_films(scene.shaft, scene.journal) else {}
     for name, film in at.films.items():
         if name not in scene.journal.tilting:
             continue
-        concept = next(c for c in scene.shaft.concepts if name in c.bearings)
-        span = max(np.ptp(concept.positions), concept.positions[0])
-        beam = concept.beam
-        section = (
-            beam.sections[0]
-            if beam
-            else ShaftSection(geometry.diameter, HOLLOW * geometry.diameter)
-        )
-        load = at.bearings[name]
-        moment = load.radial * concept.positions[0] + load.turn
-        bent = moment * span / (3.0 * STEEL * section.inertia)
-        slope = bent + turn_of_bore(scene.journal.at(name))
+        own = scene.journal.at(name)
+        geometry = own.geometry
+        slope = at.bearings[name].slope + turn_of_bore(own)
         share = np.minimum(0.5 * slope * geometry.width / film.minimum_film, 1.0)
         most = min(float(np.nanmax(share)) + floats.get(name, 0.0), 1.0)
         found.append(
@@ -187,7 +176,16 @@ def _aligned(scene: Scene) -> Callable[[Series], Series] | None:
     """
     if scene.journal.rung != "reduced" or scene.shaft.coupled:
         return None
-    return lambda given: {**given, "shaft": aligned(scene.journal, given["shaft"])}
+    return lambda given: {**given, "shaft": _all_aligned(scene.journal, given["shaft"])}
+
+
+def _all_aligned(journal: Journal, shaft: xr.Dataset) -> xr.Dataset:
+    """Loads of all bearings, with the shaft straight along the bores of those of the scene."""
+    parts = []
+    for name in shaft["bearing"].values:
+        one = shaft.sel(bearing=name)
+        parts.append(aligned(journal.at(name), one) if name in journal.bearings else one)
+    return xr.concat(parts, "bearing", coords="different", compat="equals")
 
 
 TILT = Effect(
@@ -205,8 +203,8 @@ TILT = Effect(
     out="no journal.tilt: half the width of the film is solved",
     needs="journal.tilt = true, with a beam as the shaft",
     cost=cost_of("tilt"),
-    # 40 where the shaft touches the ends of its bearings
-    larger=lambda scene: 60.0 if always_turns(scene) else UNKNOWN,
+    larger=no_bound_at_standstill,
+    smaller=15.0,  # 10 of a stretch in which the shaft bends less than in all of the case
     rungs=("grid", "reduced"),
     own_kernels=True,
     muted=_aligned,

@@ -140,7 +140,7 @@ HEAT = Effect(
     indicator=_heat,
     cost=cost_of_heat,
     larger=no_bound_at_standstill,
-    smaller=10.0,  # 2.6 where the shaft always turns
+    smaller=15.0,  # 11 of h_min in a start, most of which is slow
     out="no journal.heat; the run warns where it would matter",
     needs="a table journal.heat with the oil and the temperature at which it enters",
 )

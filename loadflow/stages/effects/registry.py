@@ -3,7 +3,17 @@
 from __future__ import annotations
 
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects import clearances, film, film_heat, rolling, rotor, shaft, thrust
+from loadflow.stages.effects import (
+    clearances,
+    film,
+    film_heat,
+    roller_profile,
+    rolling,
+    rotor,
+    seats,
+    shaft,
+    thrust,
+)
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.stage import Stage
 
@@ -16,6 +26,7 @@ EFFECTS: list[Effect] = [
     shaft.ELASTIC,
     shaft.STIFFNESS,
     clearances.CLEARANCES,
+    seats.SEATS,
     film.MOTION,
     film_heat.HEAT,
     film_heat.GROWTH,
@@ -28,8 +39,9 @@ EFFECTS: list[Effect] = [
     thrust.HEAT,
     thrust.TILT,
     thrust.CONTACT,
+    seats.OF_COLLARS,
     rolling.RINGS,
-    rolling.SLICED,
+    roller_profile.SLICED,
     rolling.CENTRIFUGAL,
 ]
 

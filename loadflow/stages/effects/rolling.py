@@ -121,9 +121,7 @@ def _is_firm(part: FurtherBearing) -> bool:
     )
 
 
-def _each_bearing(
-    scene: Scene, key: str, settings: Callable[[FurtherBearing], Any]
-) -> Scene | None:
+def each_bearing(scene: Scene, key: str, settings: Callable[[FurtherBearing], Any]) -> Scene | None:
     """The scene with a key of each of its rolling bearings set."""
     rolling = scene.rolling
     changed: dict[str, Any] = {key: settings(rolling)}
@@ -142,7 +140,7 @@ def _with_flexible_rings(scene: Scene, on: bool) -> Scene | None:
 
     if on and not any(map(able, scene.rolling.bearings.values())):
         return None
-    return _each_bearing(scene, "rings", lambda part: "flexible" if on and able(part) else "rigid")
+    return each_bearing(scene, "rings", lambda part: "flexible" if on and able(part) else "rigid")
 
 
 RINGS = Effect(
@@ -159,66 +157,6 @@ RINGS = Effect(
         "rolling.inner_ring and rolling.outer_ring, which bearings sized for the turbine bring "
         "along; rings of ball, crossed and three-row bearings are rigid here"
     ),
-)
-
-
-SLICED_SIZES = {"maximum force": 0.3, "maximum pressure": 0.3, "life": 6.0}
-"""What profile and tilt of the rollers change of the tapered bearing of `pipelines/dlc_1_1.toml`.
-
-The largest of both rings rigid and flexible, without and with the moment of that job: its preload
-is less where rollers fall away to their ends, and their ends carry more where they tilt.
-"""
-
-SLICED_DROP = 0.7
-"""Mean drop of the logarithmic profile of ISO/TS 16281 over the approach `PRESSED`."""
-
-SLICED_COSTS = {"rigid": 15.0, "flexible": 2.3}
-"""Time of the equilibrium with rollers in 30 slices over that with whole ones, same bearing."""
-
-
-def _drop_over_approach(part: FurtherBearing) -> float:
-    """Mean drop of the rollers' profile over their approach at about 1 GPa."""
-    bearing: Any = part.geometry
-    rows = bearing.rows if isinstance(bearing.rows, tuple) else (bearing,)
-    return max(float(row.profile_drop.mean()) / (PRESSED * row.roller_diameter) for row in rows)
-
-
-def _sliced(at: Situation) -> Sizes:
-    """Drop of the rollers' profile against their approach, from the bearing of the main job."""
-    rollers = [part for part in at.scene.rolling.bearings.values() if _has_rollers(part)]
-    drop = max(map(_drop_over_approach, rollers), default=0.0)
-    share = drop / (SLICED_DROP + drop) * 2
-    return {name: share * size for name, size in SLICED_SIZES.items()}
-
-
-def _has_rollers(part: FurtherBearing) -> bool:
-    return part.geometry.element == "roller"
-
-
-def _with_sliced_rollers(scene: Scene, on: bool) -> Scene | None:
-    """Switch all bearings that have rollers between rollers in slices and whole ones."""
-    return _each_bearing(
-        scene,
-        "roller_model",
-        lambda part: "whole" if not on and _has_rollers(part) else "sliced",
-    )
-
-
-SLICED = Effect(
-    "profile and tilt of the rollers",
-    model="rolling",
-    keys=("rolling.roller_model",),
-    is_on=lambda scene: any(
-        _has_rollers(part) and part.roller_model == "sliced"
-        for part in scene.rolling.bearings.values()
-    ),
-    switched=_with_sliced_rollers,
-    indicator=_sliced,
-    smaller=100.0,  # 64 of the life of a bearing under little load
-    out='rolling.roller_model = "whole": each roller is one contact',
-    needs='rolling.roller_model = "sliced"',
-    concerns=lambda scene: any(map(_has_rollers, scene.rolling.bearings.values())),
-    cost=lambda scene: SLICED_COSTS[scene.rolling.rung],
 )
 
 
@@ -247,7 +185,7 @@ def _with_inertia(scene: Scene, on: bool) -> Scene | None:
     able = [part.bearing for part in scene.rolling.bearings.values() if part.can_have_inertia]
     if on and not able:
         return None
-    return _each_bearing(scene, "inertia", lambda part: on and part.bearing in able)
+    return each_bearing(scene, "inertia", lambda part: on and part.bearing in able)
 
 
 CENTRIFUGAL = Effect(

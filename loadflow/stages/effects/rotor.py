@@ -11,13 +11,13 @@ import numpy as np
 
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNSURE, Effect, Sizes
-from loadflow.stages.effects.situation import AIR_DENSITY, Situation
+from loadflow.stages.effects.situation import AIR_DENSITY, FEATHERED_THRUST, Floats, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.turbines import load_turbine
 from loadflow.wind.cases import load_case
 
-LAG = 0.4
-"""Change of the moments' damage by the lag of the wake, over the induction; docs/rotor.md."""
+OUT = 0.75
+"""Place of the section that stands for a blade, over the radius."""
 
 SEPARATION = 0.05
 """Change of the moments' damage by dynamic stall, over the turbulence; docs/rotor.md."""
@@ -76,9 +76,30 @@ def _switch(
 
 
 def _inflow(at: Situation) -> Sizes:
-    """The induction that lags behind the load: a = (1 − √(1 − c_T))/2."""
-    induction = 0.5 * (1.0 - np.sqrt(1.0 - at.thrust_coefficient))
-    return _of_loads(LAG * float(np.max(induction)))
+    """Share of a gust that a wake takes which follows at once, and one that lags does not.
+
+    Blades at Ω r take the thrust per swept area ½ ρ σ 2π Ω r (V − u) of the wind V less the induced
+    velocity u, with the solidity σ at `OUT` of the radius; the wake bears 2 ρ (V − u) u [Hansen
+    2008]. If they balance at all times, both change by du/dV = (b − u)/(b + V − 2u), b = ½ π σ Ω r.
+    Feathered blades induce nothing.
+    """
+    rotor, blade = at.turbine.rotor, at.turbine.blade
+    radius = OUT * rotor.radius
+    solidity = rotor.blades * np.interp(radius, blade.radius, blade.chord) / (2.0 * np.pi * radius)
+    blades = 0.5 * np.pi * solidity * at.speed * radius
+    induced = _induction(at) * at.wind_speed
+    taken = (blades - induced) / (blades + at.wind_speed - 2.0 * induced)
+    feathered = at.thrust_coefficient <= FEATHERED_THRUST
+    return _of_loads(float(np.where(feathered, 0.0, np.abs(taken)).max()))
+
+
+def _induction(at: Situation) -> Floats:
+    """Induced velocity over the wind (n,): 4a(1 − a) = c_T, 4a(1 − a)² = c_P of the rated power."""
+    turbine = at.turbine
+    area, induction = np.pi * turbine.rotor.radius**2, np.linspace(0.0, 1.0 / 3.0, 100)
+    rated = turbine.control.rated_mechanical_power / (0.5 * AIR_DENSITY * area * at.wind_speed**3)
+    limited = np.interp(rated, 4.0 * induction * (1.0 - induction) ** 2, induction)
+    return np.minimum(0.5 * (1.0 - np.sqrt(1.0 - at.thrust_coefficient)), limited)
 
 
 INFLOW = _switch(
@@ -87,8 +108,7 @@ INFLOW = _switch(
     _inflow,
     out="no loads.dynamic_inflow: induction follows the load at once",
     cost=1.03,
-    larger=lambda scene: 5.0,  # at 24 m/s
-    smaller=60.0,  # of a start, 7 of a rotor that runs
+    smaller=8.0,  # at 18 m/s over a pilot at 4 m/s
 )
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
+import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import LoadflowError
@@ -22,7 +23,7 @@ from loadflow.journal import Film as PadFilm
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
-from loadflow.shaft import Beam, Concept, bearing_loads, pitch_loads, yaw_loads
+from loadflow.shaft import Beam, bearing_loads, pitch_loads, yaw_loads
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
@@ -76,7 +77,8 @@ class BearingLoad:
     surge : ndarray, shape (n,)
         Largest deviation of the force along the shaft from its mean, N.
     slope : ndarray, shape (n,)
-        Largest slope of the bent shaft where a thrust collar stands, rad; 0 elsewhere.
+        Largest slope of the bent shaft, rad, in a thrust collar or a film that it may tilt in; 0
+        elsewhere.
     held : ndarray, shape (n,)
         Largest radial force with bearings that are rigid where they take a moment, over that with
         bearings that take none, less 1; 0 where the suspension is statically determinate.
@@ -268,7 +270,9 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
     rated = control.rated_speed / turbine.drivetrain.gear_ratio
     pitch = turbine.supervision.idling_pitch
     slow = wind / (IDLING * rotor.radius * np.tan(pitch))
-    speed = np.minimum(np.where(idles, slow, TIP_SPEED_RATIO * wind / rotor.radius), rated)
+    least = control.region_15_start / turbine.drivetrain.gear_ratio
+    runs = np.maximum(TIP_SPEED_RATIO * wind / rotor.radius, least)
+    speed = np.minimum(np.where(idles, slow, runs), rated)
     speed = np.where(parked, 0.0, speed)
     area = np.pi * rotor.radius**2
     coefficient = np.where(feathered, FEATHERED_THRUST, np.minimum(0.8, 7.0 / wind))
@@ -356,18 +360,24 @@ def _on_bearings(
 
 
 def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
-    """Largest slope of the shaft, rad, at each thrust collar; bearings are rigid, and let it tilt.
+    """Largest slope of the bent shaft, rad, in each thrust collar and journal bearing.
 
-    Where no beam is stated, of a shaft as wide as the bore of the pads.
+    Its bearings are rigid, and let it tilt. Where no beam is stated, it is as wide as the journal
+    or the bore of the pads.
     """
-    found = {}
-    for name, collar in scene.thrust.collars.items():
-        concept: Concept = next(c for c in scene.shaft.concepts if name in c.bearings)
-        wide = 2.0 * collar.geometry.inner_radius
-        beam = concept.beam or Beam((ShaftSection(wide, HOLLOW * wide),))
-        bent = replace(concept, beam=beam.on_rigid_bearings())
-        loads = bearing_loads(bent, force, moment, tilt=tilt).sel(bearing=name)
-        found[name] = float(np.hypot(*to_film(loads["tilt"].transpose(..., "axis").values).T).max())
+    collars, journal = scene.thrust.collars, scene.journal
+    widths = {name: 2.0 * collar.geometry.inner_radius for name, collar in collars.items()}
+    widths |= {name: journal.at(name).geometry.diameter for name in journal.bearings}
+    found: dict[str, float] = {}
+    for concept in scene.shaft.concepts:
+        bent: dict[Beam, xr.DataArray] = {}
+        for name in set(concept.bearings) & {*widths}:
+            beam = concept.beam or Beam((ShaftSection(widths[name], HOLLOW * widths[name]),))
+            if beam not in bent:
+                one = replace(concept, beam=beam.free_in_films().on_rigid_bearings())
+                bent[beam] = bearing_loads(one, force, moment, tilt=tilt)["tilt"]
+            slope = to_film(bent[beam].sel(bearing=name).transpose(..., "axis").values)
+            found[name] = float(np.hypot(*slope.T).max())
     return found
 
 
