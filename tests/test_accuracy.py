@@ -8,9 +8,14 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cli import main
+from loadflow.errors import InputError
+from loadflow.planning import choice
 from loadflow.planning.accuracy import expected_errors
+from loadflow.planning.choice import choose
+from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import expected_seconds, gains, ladder
 from loadflow.planning.plan import make_plan
+from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
 from loadflow.stages.registry import STAGES, giving, models
 
@@ -114,6 +119,23 @@ def test_an_accuracy_out_of_reach_is_said_and_the_best_is_taken():
         if "settings" in entry
     }
     assert models()["journal"].text_of(plan.scene) == min(worst, key=worst.__getitem__)
+
+
+def test_of_models_that_do_not_go_together_none_is_taken(monkeypatch):
+    """Neither where that costs the accuracy; where none at all go together, it is said."""
+    scene = make_scene({"results": ["journal.film"], "accuracy": 0.05})
+    first = make_plan(scene).scene
+    for held in (
+        lambda one: one.loads.rung != first.loads.rung,
+        lambda one: max(expected_errors(one, Estimates())["journal.film"].values()) > 0.1,
+    ):
+        monkeypatch.setattr(choice, "is_valid", held)
+        found = choose(scene, ["loads", "shaft", "journal"], tuple(list_cases(scene)))
+        assert held(found.scene)
+        assert found.met == all(x <= 0.05 for x in found.errors["journal.film"].values())
+    monkeypatch.setattr(choice, "is_valid", lambda one: False)
+    with pytest.raises(InputError, match=r"no models of .*loads.* go together"):
+        choose(scene, ["loads", "shaft", "journal"], tuple(list_cases(scene)))
 
 
 def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_models():

@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,17 +13,22 @@ from synthetic import cube_file
 from benchmarks.ladder.physics import kept_so_far
 from benchmarks.ladder.physics_sizes import in_clearances
 from loadflow.errors import InputError
+from loadflow.planning import pilot
+from loadflow.planning.asked import resting
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft_place import floating
+from loadflow.scene.thrust import Thrust
 from loadflow.stages import bores, thrust
 from loadflow.stages.effects import clearances
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
 from loadflow.stages.effects.film import TILT
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
+from loadflow.stages.probes import Probe
+from loadflow.stages.registry import STAGES
 from loadflow.stages.shaft import bearing_loads
 
 FLOATS = [{"stiffness": "journal"}, {"stiffness": "journal"}]
@@ -126,6 +132,48 @@ def test_the_indicator_has_the_size_that_a_pilot_measures(turbine):
     for quantity in ("minimum film", "maximum pressure"):
         ratio = sizes[CLEARANCES.name][quantity] / indicated[quantity]
         assert 1 / CLEARANCES.smaller < ratio < CLEARANCES.larger(scene)
+
+
+def test_what_a_pilot_asks_after_films_it_asks_around_the_shaft_in_these_films(monkeypatch):
+    """So collars beside journal bearings are tilted as their scene says."""
+    pads = {"pads": 6, "inner_radius": 1.6, "outer_radius": 2.0, "pad_angle": 0.9, "taper": 1e-4}
+    collar = {"kind": "thrust", "geometry": pads, "lubricant": {"viscosity": 0.2}}
+    collar |= {"self_aligning": True}
+    scene = scene_of(motion="transient", rung="reduced").model_copy(
+        update={"thrust": Thrust(bearings={"N2": collar})}
+    )
+    asked = []
+
+    def lies_in(scene, case, inputs):
+        return sorted(scene.shaft.coupled)
+
+    def answers(scene, case, inputs):
+        asked.append((lies_in(scene, case, inputs), inputs["shaft"]))
+        return {("N2", "minimum film"): 1.0}
+
+    for name, run in (("loads", lambda *about: None), ("shaft", lies_in)):
+        monkeypatch.setitem(STAGES, name, replace(STAGES[name], run=run))
+    probe = Probe(("loads", "shaft"), answers)
+    monkeypatch.setattr(pilot, "PROBES", {"journal": probe, "thrust": probe})
+    names = (CLEARANCES.name, "heat of the collar")
+    measure(Questions(scene, names, 60.0, ()), list_cases(scene)[0])
+    assert {tuple(lies) for lies, _ in asked} == {(), ("N", "N2")}
+    assert asked[-1][0] == ["N", "N2"]
+    for lies, found in asked:
+        assert lies == found
+
+
+def test_a_shaft_in_films_is_another_one_where_these_are():
+    """But for films at rest, which are asked around the shaft that is followed in motion."""
+    moving, thin = ({"motion": "transient", "rung": "reduced"} | more
+                    for more in ({}, {"lubricant": {"viscosity": 0.1}}))  # fmt: skip
+    fed_back = [{"stiffness": "journal", "takes_moment": True}] * 2
+    rest = moving | {"motion": "quasi-static"}
+    assert resting(scene_of(**moving)) == resting(scene_of(**thin))
+    own = resting(scene_of(fed_back, **moving))
+    assert own != resting(scene_of(**moving))
+    assert own != resting(scene_of(fed_back, **thin))
+    assert own == resting(scene_of(fed_back, **rest))
 
 
 def test_the_ends_of_a_film_close_down_to_where_surfaces_touch(monkeypatch):

@@ -70,6 +70,7 @@ def check_toy_effect(cube, monkeypatch):
     wanted = {"results": ["reduction.histogram"]}
     plan = make_plan(scene_of(cube, **wanted))
     assert plan.scene.reduction.seed == 1  # 20 % are more than 5 %
+    assert effect_in(plan, "odd seed").why.endswith("or it takes 2 % of the time or less")
     named = make_plan(scene_of(cube, reduction={"seed": 0}, **wanted))
     assert not effect_in(named, "odd seed").kept
     assert named.errors["reduction.histogram"]["largest load"] == pytest.approx(0.2, abs=0.02)

@@ -220,7 +220,14 @@ def words(tmp_path_factory):
 
 
 @pytest.fixture
-def call(words, tmp_path, capsys, monkeypatch):
+def undrawn(monkeypatch):
+    """No figures: to draw takes most of the time, and what they show stands in tables beside."""
+    for draw in ("to_svg", "to_png"):
+        monkeypatch.setattr(f"loadflow.report.page.{draw}", lambda figure: "drawn")
+
+
+@pytest.fixture
+def call(words, tmp_path, capsys, monkeypatch, undrawn):
     """Arguments of a command → exit code, what it says, and a fingerprint of all that it did."""
     handed = []
 
@@ -232,9 +239,6 @@ def call(words, tmp_path, capsys, monkeypatch):
 
     for place in ("runner.run", "comparison.compare", "designing.design", "crowning.crown"):
         monkeypatch.setattr(f"loadflow.running.{place}", taken)
-    # to draw takes most of the time, and what a picture shows stands in the tables beside it
-    for draw in ("to_svg", "to_png"):
-        monkeypatch.setattr(f"loadflow.report.page.{draw}", lambda figure: "drawn")
     number = 0
 
     def run(command, arguments):
@@ -363,7 +367,7 @@ def test_what_works_long_tells_how_it_goes(command):
         (["lifetime", "HUB", "-o", "OUT"], "dlc1.1_v9_s2, bearing N2: 200 samples"),
     ],
 )
-def test_verbose_names_each_part_of_the_work(arguments, told, words, tmp_path, capsys):
+def test_verbose_names_each_part_of_the_work(arguments, told, words, tmp_path, capsys, undrawn):
     said = [_filled(one, words | {"OUT": tmp_path}) for one in arguments]
     for more, found in (([], False), (["-v"], True)):
         with pytest.raises(SystemExit):

@@ -43,7 +43,8 @@ def test_each_field_is_a_case_named_as_its_file_says(folder):
 
 
 def test_the_loads_are_those_of_the_rotor_in_that_field(folder, tmp_path):
-    result = lf.run(scene_of(folder / "mine*.bts", accuracy="given"), out=tmp_path)
+    scene = scene_of(folder / "mine*.bts", accuracy="given")
+    result = lf.run(scene, out=tmp_path, report=False)
     (case,) = (result.path / "loads").glob("*.h5")
     loads = lf.open_cube(case).load()
     box = read_bts(folder / "mine_v9_s7.bts")

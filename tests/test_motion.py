@@ -28,7 +28,7 @@ def test_a_film_in_motion_reads_the_whole_series(tmp_path):
     scene = scene_of(cube, name="moving", journal=FILM | {"motion": "transient"})
     plan = make_plan(scene)
     assert [step.name for step in plan.steps] == ["loads", "shaft", "journal", "check"]
-    result = lf.run(scene, out=tmp_path)
+    result = lf.run(scene, out=tmp_path, report=False)
     (one,) = plan.cases
     with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
         samples = tree["N2"].to_dataset().load()
@@ -147,7 +147,7 @@ def test_a_film_in_motion_has_one_temperature_that_of_its_mean_friction(tmp_path
 def test_a_film_at_rest_settles_at_a_temperature_for_each_load(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1,), steps=200)
     scene = scene_of(cube, journal=FILM | {"heat": HEAT})
-    result = lf.run(scene, out=tmp_path)
+    result = lf.run(scene, out=tmp_path, report=False)
     (one,) = make_plan(scene).cases
     with xr.open_datatree(result.path / "journal" / f"{one.name}.h5", engine="h5netcdf") as tree:
         samples = tree["N2"].to_dataset().load()

@@ -1,6 +1,7 @@
 """A run computes what is wanted and nothing else, once, and gives the same again."""
 
 import json
+import shutil
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
@@ -101,8 +102,8 @@ def test_every_number_of_the_result_has_units_and_a_meaning(finished):
 
 def test_a_run_that_was_killed_goes_on_and_gives_identical_results(cube, finished, tmp_path):
     scene = scene_of(cube)
-    lf.run(scene, out=tmp_path, report=False)
     folder = tmp_path / "small"
+    shutil.copytree(finished.path, folder)
     # as a kill would leave it: parts missing, a temporary file, no result
     stamp = (folder / "journal" / "dlc1.1_v8_s1.h5").stat().st_mtime_ns
     for name in ("journal/dlc1.1_v8_s2.h5", "loads/dlc1.1_v12_s1.h5", "shaft/dlc1.1_v12_s2.h5"):
@@ -120,8 +121,9 @@ def run_to(scene, out, workers):
     lf.run(scene, out=out, workers=workers, report=False)
 
 
-def test_two_processes_give_the_numbers_of_one(cube, tmp_path):
+def test_two_processes_give_the_numbers_of_one(tmp_path):
     """To the bit. The one is new, too: it loads the compiled kernels that the two load."""
+    cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,))
     alone, both = tmp_path / "one", tmp_path / "two"
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as fresh:
         fresh.submit(run_to, scene_of(cube), alone, 1).result()
@@ -188,7 +190,7 @@ def with_speed(path, **of_case):
 
 
 def test_a_case_without_an_answer_is_reported_and_the_others_are_kept(tmp_path):
-    path = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2))
+    path = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,), seeds=(1, 2), steps=120)
     # so fast that the oil finds no heat balance below its largest temperature
     with_speed(path, **{"dlc1.1_v8_s1": (slice(None), 60.0)})
     warm = {"grid": [24, 8], "heat": {"inlet_temperature": 390.0}}

@@ -340,6 +340,14 @@ def test_a_spectrum_holds_the_variance_of_the_series(cube):
     assert set(found["units"].values) == {found.attrs["units"]}
     assert "units" not in cube.lf.statistics("hub_moment.y").attrs  # no unit that pint could read
     assert pint.Quantity(1.0, found.attrs["units"]).to("N^2 m^2 s").magnitude == 1.0
+    for several in (cube.lf.spectrum(), cube.lf.del_()):
+        assert "units" not in several.attrs
+        named = [*several["units"].values]
+        assert len({*named}) > 1
+        for unit, name in zip(named, several["channel"].values):
+            own = cube[name.split(".")[0]].attrs["units"]
+            wanted = f"({own})^2/Hz" if several.name == "power_spectral_density" else own
+            assert pint.Quantity(1.0, unit) == pint.Quantity(1.0, wanted)
     for axis in ("y", "z"):
         series = cube["hub_moment"].sel(axis=axis).isel(case=0)
         density = found.sel(channel=f"hub_moment.{axis}").isel(case=0)

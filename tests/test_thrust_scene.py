@@ -163,6 +163,7 @@ def test_a_collar_that_tilts_warms_and_moves_follows_the_whole_series(tmp_path):
     slope = np.hypot(*shaft_tilt(done)) @ samples["restoring_moment"].values
     slope /= (np.hypot(*shaft_tilt(done)) ** 2).sum()
     assert samples.attrs["tilting_stiffness"] == pytest.approx(slope, rel=1e-3)
+    assert 0.0 < samples.attrs["moment_error"] < 0.1
 
 
 @pytest.mark.slow

@@ -91,13 +91,18 @@ def inputs(scene):
     """What the stages before bearings give, once for scenes that do not differ in it."""
     if scene.shaft.coupled or scene.reduction.method == "periodic":  # these ask the bearings
         return _made(scene)
-    key = scene.model_dump_json(include={"shaft", "reduction", "turbine", "rolling"})
+    key = scene.model_dump_json(include=READ)
     if key not in _INPUTS:
         _INPUTS[key] = _made(scene)
     return _INPUTS[key]
 
 
 _INPUTS = {}
+READ = {
+    "shaft": True, "reduction": True, "turbine": True,
+    "rolling": {"bearing": True, "further": True},
+}  # fmt: skip
+"""What the stages before bearings read of a scene."""
 
 
 def _made(scene):

@@ -75,7 +75,7 @@ BASES = {
         "shaft": {"two_point": {"beam": {"supports": [{}, {"takes_moment": True}]}}},
         "rolling": {"bearing": "N2", "geometry": TAPERED, "mounting": {
             "inner_share": 1.1}},
-        "dynamics": {"unbalance": 50.0}, "results": ["rolling.dynamics"]},
+        "dynamics": {"unbalance": 50.0}, "reduction": FEW, "results": ["rolling.dynamics"]},
     "rolling dynamics, dry": {
         "shaft": {"moment": {}}, "rolling": {"bearing": "M", "geometry": BALLS},
         "dynamics": {"contact_model": "dry"}, "results": ["rolling.dynamics"]},
@@ -101,7 +101,7 @@ BASES = {
             "contact_angle": 0.35,
             "clearance": -5e-5}, "rings": "flexible", "outer_ring": {
             "section": {"width": 0.1, "height": 0.3}, "radius": 0.7, "harmonics": 8}},
-        "friction": {"conductance": 50.0},
+        "friction": {"conductance": 50.0}, "reduction": FEW,
     },
     "bolted ring": {
         "shaft": {"moment": {}}, "reduction": FEW,
@@ -115,7 +115,7 @@ BASES = {
             "shaft": {"two_point": {}}, "results": ["rolling.friction"],
             "rolling": {"bearing": "N2", "geometry": geometry, "catalogue": {
                 "bore": 0.9, "outside_diameter": 1.5} | entry},
-            "friction": {"lubricant": "mineral-vg-320"}}
+            "friction": {"lubricant": "mineral-vg-320"}, "reduction": FEW}
         for rollers, geometry, entry in (
             ("a series", TAPERED, {
                 "series": "320 X", "axial_factor": 1.5, "oil_level": 0.2, "width": 0.15}),
@@ -378,7 +378,7 @@ WALKED = {
     "rough film": ("journal.contact",),
     "elastic film": ("journal.shell",),
     "turbulent film": ("journal.turbulence",),
-    "film in motion": ("journal", "reduction"),
+    "film in motion": ("journal.motion", "journal.rung", "journal.grid", "reduction"),
     "periodic loads": ("reduction",),
     "periodic loads, tilted": ("journal.tilt", "journal.alignment", "reduction"),
     "stationary loads": ("reduction",),
@@ -388,7 +388,7 @@ WALKED = {
     "rolling dynamics": ("dynamics", "rolling.limits", "rolling.rings"),
     "rolling dynamics, dry": ("dynamics", "friction"),
     "rolling dynamics, proportional": ("dynamics",),
-    "rigid and tilted": ("journal",),
+    "rigid and tilted": ("journal.tilt", "journal.alignment"),
     "worn bores": tuple(
         f"wear.{key}"
         for key in ("law", "running_in", "events", "counts", "samples", "around", "across")
@@ -397,19 +397,19 @@ WALKED = {
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
     "bolted ring": ("rolling.outer_ring.supports",),
-    "mounted rollers": ("rolling",),
+    "mounted rollers": ("rolling.mounting",),
     "catalogue of a series": ("rolling.catalogue",),
     "catalogue of constants": ("rolling.catalogue",),
     "catalogue of barrels": ("rolling.catalogue",),
     "catalogue of balls": ("rolling.catalogue",),
-    "mounted rollers, loose": ("rolling", "environment"),
+    "mounted rollers, loose": ("rolling.mounting", "environment"),
     "thrust collar": ("thrust",),
     "warm collar": ("thrust.motion", "thrust.tilt", "thrust.bearings.N2.heat"),
     "pair of cones": ("thrust",),
     "three points": ("shaft",),
     "integrated": ("shaft",),
-    "yaw": ("shaft", "rolling"),
-    "pitch": ("shaft", "rolling"),
+    "yaw": ("shaft.yaw", "rolling.oscillation"),
+    "pitch": ("shaft.pitch", "rolling.oscillation"),
     "direct drive": ("shaft",),
     **dict.fromkeys(
         ("balls in one row", "balls in two rows", "rollers in one row", "barrels",
@@ -452,7 +452,19 @@ WALKED = {
 """What is walked over of each scene: sections, or parts of them."""
 
 WHOLE = {
-    **dict.fromkeys(("warm film", "rough film", "elastic film", "turbulent film"), ("journal",)),
+    **dict.fromkeys(
+        (
+            "warm film",
+            "rough film",
+            "elastic film",
+            "turbulent film",
+            "film in motion",
+            "rigid and tilted",
+        ),
+        ("journal",),
+    ),
+    **dict.fromkeys(("mounted rollers", "mounted rollers, loose"), ("rolling",)),
+    **dict.fromkeys(("yaw", "pitch"), ("shaft", "rolling")),
     "rolling dynamics": ("friction", "rolling.inner_ring", "rolling.outer_ring"),
 }
 """What is walked over, too, in the slow tests: keys that other scenes walk, beside an effect."""

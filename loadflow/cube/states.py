@@ -7,7 +7,7 @@ import xarray as xr
 STANDING = 0.1
 """Share of the rated speed below which a rotor stands or idles: no turbine produces power there."""
 
-SLOWEST = 0.05
+STANDING_SPEED = 0.05
 """The same limit where the rated speed is not known, rad/s (half a revolution a minute)."""
 
 
@@ -22,7 +22,7 @@ def standing(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray
     case : xarray.Dataset
         Case or cube with the variable ``speed``, rad/s.
     rated_speed : float, optional
-        Of the rotor, rad/s. The limit is `STANDING` of it, else `SLOWEST`.
+        Of the rotor, rad/s. The limit is `STANDING` of it, else `STANDING_SPEED`.
 
     Returns
     -------
@@ -36,7 +36,7 @@ def standing(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray
     >>> standing(stop, rated_speed=1.27).values.tolist()
     [False, False, True]
     """
-    limit = SLOWEST if rated_speed is None else STANDING * rated_speed
+    limit = STANDING_SPEED if rated_speed is None else STANDING * rated_speed
     return (abs(case["speed"]) < limit).assign_attrs(
         units="1", long_name="whether the rotor stands or idles"
     )

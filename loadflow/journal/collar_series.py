@@ -46,11 +46,15 @@ class CollarPath(CollarFilms):
     moment : array (n, 2)
         What the tilted collar applies to both rows about both axes, N m, of films at rest at their
         gaps; the shaft gets it back.
+    moment_error : float
+        Largest relative error of the moment of a row by interpolation; 0 of a collar that never
+        tilts.
     """
 
     front_temperature: Array
     back_temperature: Array
     moment: Array
+    moment_error: float
 
     @property
     def restoring_moment(self) -> Array:
@@ -311,10 +315,9 @@ class CollarSeries:
         most = float(np.max(share, where=found, initial=0.0))
         typical = float(np.median(np.abs(speed[found]))) if found.any() else 0.0
         film = self.film.isothermal()
-        error = max(
-            _error(side.table, film, most, typical) if typical > 0.0 else 0.0
-            for side in (front, back)
-        )
+        errors = np.zeros(2)
+        for side in (front, back) if typical > 0.0 else ():
+            errors = np.maximum(errors, _errors(side.table, film, most, typical))
         return CollarPath(
             gap=gap * shown,
             minimum_film=thin * shown,
@@ -325,23 +328,24 @@ class CollarSeries:
             converged=found,
             residual=residual * shown,
             iterations=np.asarray(steps),
-            interpolation_error=error,
+            interpolation_error=float(errors[0]),
             front_temperature=warm[0] * shown,
             back_temperature=warm[1] * shown,
             moment=(rows[0].moment - rows[1].moment) * shown[:, None],
+            moment_error=float(errors[1]),
         )
 
 
-_error_of: Callable[[RowTable, Film, float, float], float] = lru_cache(maxsize=256)(
-    lambda table, film, most, speed: table.error(film, speed, most)
+_errors_of: Callable[[RowTable, Film, float, float], Array] = lru_cache(maxsize=256)(
+    lambda table, film, most, speed: table.errors(film, speed, most)
 )
 
 
-def _error(table: RowTable, film: Film, most: float, speed: float) -> float:
-    """Error of a table up to the next tenth of tilts, at a speed and a viscosity of one digit."""
+def _errors(table: RowTable, film: Film, most: float, speed: float) -> Array:
+    """Errors of a table up to the next tenth of tilts, at a speed and a viscosity of one digit."""
     tilt = min(math.ceil(10.0 * most) / 10.0, MOST)
     thick = replace(film.liquid, viscosity=_one_digit(film.liquid.viscosity))
-    return _error_of(table, replace(film, lubricant=thick), tilt, _one_digit(speed))
+    return _errors_of(table, replace(film, lubricant=thick), tilt, _one_digit(speed))
 
 
 def _one_digit(value: float) -> float:

@@ -342,7 +342,9 @@ class FilmHeat(Entering):
         Temperatures at which the load is differentiated by the place of the shaft. "frozen": those
         that the film has, for motion faster than it warms, such as vibration. "settled": those in
         balance at every place, for slow drift; by differences of films with their heat, four of
-        them more for an aligned shaft. Damping is always that at frozen temperatures.
+        them more for an aligned shaft. So it is at rest and at given positions (`pressure`); all of
+        it is NaN without ``strict`` where one of these films has no temperatures. Damping is always
+        that at frozen temperatures.
 
     Raises
     ------

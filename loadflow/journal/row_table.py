@@ -35,6 +35,7 @@ _GAPS = 25  # between the thinnest and the thickest film, evenly in its logarith
 _TILTS, _DIRECTIONS = 7, 12
 _NEAREST = 7  # pads on the thin side, of which one has the largest pressure
 _PROBES = 6  # films that are solved on the grid to see how far the table is off
+_SMALL = 1e-3  # share of the largest tilt, of which the error of the moment is that of none
 _SHARE = 0.1  # of the force, of the squeeze that tells what it does to the largest pressure
 _RADIANS = 4  # directions of a row within its pitch
 
@@ -131,10 +132,12 @@ class RowTable:
         fill_lands(*_rows(gap, slope, angle), depth, waves, radii, found)
         return found
 
-    def error(self, film: Film, speed: float, most: float = 0.0) -> float:
-        """Largest relative error beside films of the whole row on the grid, with their own law.
+    def errors(self, film: Film, speed: float, most: float = 0.0) -> Array:
+        """Largest relative errors (2,) beside films of the whole row on the grid, of its own law.
 
-        Of force, torque, pressure and least film, at some gaps between the nodes.
+        That of force, torque, pressure and least film, and that of the moment of a tilted runner,
+        at some gaps between the nodes. Pads that follow the runner are aligned there: tilted, each
+        has the film of an aligned one over its pivot, and the row is beside the sum of these.
 
         Parameters
         ----------
@@ -145,27 +148,20 @@ class RowTable:
         most : float
             Largest tilt that counts, as `MOST`.
         """
-        rng, worst = np.random.default_rng(0), 0.0
+        rng, worst = np.random.default_rng(0), np.zeros(2)
         gaps = np.exp(0.5 * (np.log(self.gaps[1:]) + np.log(self.gaps[:-1])))
-        tilts = (most, most / 3.0, 2.0 * most / 3.0) if self.tilts and not self.follows else (0.0,)
         places = np.linspace(_GAPS // 3, _GAPS - 2, _PROBES).astype(int)
-        for number, gap in enumerate(gaps[places].tolist()):
-            slope = tilts[number % len(tilts)] * gap / self.row.outer_radius
-            angle = float(rng.uniform(0.0, 2.0 * math.pi))
-            tilt = slope * np.array([math.sin(angle), -math.cos(angle)])
-            exact = self.row.pressure(gap, speed, film, tilt=tilt)
-            at = np.array([gap]), np.array([slope]), np.array([angle])
-            drag = film.liquid.viscosity * abs(speed)
-            sums = self.sums(*at)[:, 0]
-            above = exact.maximum_pressure - film.edge_pressure
-            pairs = (
-                (sums[FORCE] * drag, exact.force),
-                (sums[TORQUE] * drag, abs(exact.friction_torque)),
-                (self.pressure(*at)[0] * drag, above),
-                (self.minimum_film(*at)[0], exact.minimum_film),
-            )
-            worst = max(worst, *(abs(ours / theirs - 1.0) for ours, theirs in pairs))
-        return float(worst)
+        tilts = 2 * [most, most / 3.0, 2.0 * most / 3.0]
+        if self.tilts:  # relative errors of moments are largest for a small tilt
+            places, tilts = np.append(places, places[::3]), [*tilts, _SMALL * most, _SMALL * most]
+        for gap, tilt in zip(gaps[places].tolist(), tilts):
+            slope = tilt * gap / self.row.outer_radius if self.tilts else 0.0
+            at = gap, slope, float(rng.uniform(0.0, 2.0 * math.pi))
+            if self.follows and slope > 0.0:
+                worst = np.maximum(worst, self._apart(at, _over_pivots(self, *at)))
+                at = gap, 0.0, at[2]
+            worst = np.maximum(worst, self._apart(at, _on_grid(self.row, film, speed, *at)))
+        return worst
 
     @property
     def gaps(self) -> Array:
@@ -198,6 +194,14 @@ class RowTable:
         return np.asarray(gap * (1.0 + share * np.cos(angle)))
 
     # --- inside ----------------------------------------------------------------------------------
+
+    def _apart(self, at: tuple[float, float, float], exact: Array) -> Array:
+        """What `errors` has, at a gap, slope and direction."""
+        place = tuple(np.array([each]) for each in at)
+        sums = self.sums(*place)[[FORCE, TORQUE, MOMENT_ACROSS, MOMENT_ALONG], 0]
+        off = np.array([*sums, self.pressure(*place)[0], self.minimum_film(*place)[0]]) - exact
+        moment = np.hypot(*off[2:4]) / np.hypot(*exact[2:4]) if at[1] > 0.0 else 0.0
+        return np.array([np.abs(off / exact)[[0, 1, 4, 5]].max(), moment])
 
     @property
     def _tilted(self) -> int:
@@ -256,7 +260,7 @@ def _nodes_of(table: RowTable) -> Array:
     film = _film_of(table)
     found = np.empty((_GAPS, shares.size, directions.size if table.tilts else 1, _VALUES))
     if table.tilts and table.follows:
-        return _following(table, shares, directions)
+        return _following(table, table.gaps, shares, directions)
     for i, gap in enumerate(table.gaps.tolist()):
         for j, share in enumerate(shares.tolist()):
             slope = share * gap / table.row.outer_radius
@@ -269,13 +273,13 @@ def _nodes_of(table: RowTable) -> Array:
     return found
 
 
-def _following(table: RowTable, shares: Array, directions: Array) -> Array:
+def _following(table: RowTable, gaps: Array, shares: Array, directions: Array) -> Array:
     """Nodes of pads that tilt freely: their film is that of an aligned runner over the pivot."""
     row, pivot = table.row, cast("Pivot", table.row.pivot)
     width = row.outer_radius - row.inner_radius
     radius = (row.inner_radius + pivot.across * width) / row.outer_radius
     at = directions + (pivot.share - 0.5) * row.pad_angle
-    gap = table.gaps[:, None, None]
+    gap = gaps[:, None, None]
     over = gap * (1.0 + radius * shares[:, None] * np.cos(at))
     aligned = replace(
         table, thinnest=(1.0 - MOST) * table.thinnest, thickest=2.0 * table.thickest, tilts=False
@@ -289,6 +293,31 @@ def _following(table: RowTable, shares: Array, directions: Array) -> Array:
     arm = radius * row.outer_radius * values[..., FORCE]
     values[..., MOMENT_ACROSS], values[..., MOMENT_ALONG] = -arm * np.sin(at), arm * np.cos(at)
     return np.asarray(values)
+
+
+def _over_pivots(table: RowTable, gap: float, slope: float, direction: float) -> Array:
+    """What `RowTable.errors` are of, of pads that tilt freely: the sum of aligned films."""
+    angles = np.array(table.row.row.centres) - direction
+    share = np.array([slope * table.row.outer_radius / gap])
+    pads = _following(table, np.array([gap]), share, angles)[0, 0]
+    local = table.local(np.array(gap), np.array(slope), angles)[:, None]
+    sums = (pads[:, :_SUMS] * local**-_POWERS).sum(axis=0)
+    pressure, film = pads[:, _PRESSURE] / local[:, 0] ** 2, pads[:, _FILM] * local[:, 0]
+    moment = sums[[MOMENT_ACROSS, MOMENT_ALONG]]
+    return np.array([sums[FORCE], sums[TORQUE], *moment, pressure.max(), film.min()])
+
+
+def _on_grid(
+    row: ThrustBearing, film: Film, speed: float, gap: float, slope: float, direction: float
+) -> Array:
+    """The same of a whole row on the grid, pads and runner where they are."""
+    cos, sin = math.cos(direction), math.sin(direction)
+    exact = row.pressure(gap, speed, film, tilt=(slope * sin, -slope * cos))
+    x, y = exact.moment
+    above = exact.maximum_pressure - film.edge_pressure
+    acts = exact.force, abs(exact.friction_torque), cos * x + sin * y, cos * y - sin * x, above
+    drag = film.liquid.viscosity * abs(speed)
+    return np.array([*(each / drag for each in acts), exact.minimum_film])
 
 
 def _turned(node: Array, angle: float) -> Array:

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.errors import InputError
 from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
 from loadflow.planning.effects import Estimates, concerned, is_valid, switched
 from loadflow.planning.ladder import choices, expected_seconds
@@ -70,6 +71,11 @@ def choose(
         Where an accuracy is out of reach, what is in reach is held: the rest of the error is kept
         within it. Where some errors were not measured, as few of these as can be. `met` is False in
         both.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        No models that the scene leaves open go together.
     """
     known = known or Estimates()
     stages = tuple(stages)
@@ -189,33 +195,47 @@ class _Choosing:
         ]
 
     def best(self, alternatives: dict[str, list[Any]]) -> tuple[Scene, str]:
-        """The cheapest combination that is accurate enough, and why."""
+        """The cheapest combination that is accurate enough and a valid scene, and why.
+
+        Where none is valid that is accurate enough, the most accurate one of the others.
+        """
         picked, errors = self._candidates(alternatives)
         allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
         missing = np.isnan(errors).sum(axis=1)
-        fewest = np.flatnonzero(missing == missing.min())
-        left = np.nan_to_num(errors[fewest])
-        least = left.min(axis=0, initial=np.inf)
+        fewest = missing == missing.min()
+        known = np.nan_to_num(errors)
+        least = known[fewest].min(axis=0, initial=np.inf)
         beyond = least > allowed
-        excess = ((left - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
-        good = np.flatnonzero(excess <= 1.0 + 1e-9)
-        why = "cheapest that is accurate enough" if good.size else "most accurate that was measured"
-        if beyond.any():
-            why = "cheapest beside what cannot be helped"
-        if missing.min():
-            why += ", by the errors that are known"
+        excess = ((known - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
+        good = fewest & (excess <= 1.0 + 1e-9)
 
         def scene_of(k: int) -> Scene:
-            return self.with_sections(dict(zip(alternatives, picked[fewest[k]])))
+            return self.with_sections(dict(zip(alternatives, picked[k])))
 
-        def rank(k: int) -> tuple[tuple[float, float], float]:
-            cost = self.seconds(scene_of(k)) if good.size else (0.0, float(excess[k]))
-            return cost, float(left[k].sum())
+        def cost(k: int) -> tuple[tuple[int, float], float]:
+            return self.seconds(scene_of(k)), float(known[k].sum())
 
-        ranked = sorted(good.tolist() or range(fewest.size), key=rank)
+        def off(k: int) -> tuple[int, float, float]:
+            return int(missing[k]), float(excess[k]), float(known[k].sum())
+
         # sections are chosen one by one: some do not go together, as a shaft that films hold
         # against its tilt and films without it
-        best = next((k for k in ranked if is_valid(scene_of(k))), ranked[0])
+        groups = (good, cost), (~good, off)
+        ranked = (k for some, by in groups for k in sorted(np.flatnonzero(some).tolist(), key=by))
+        best = next((k for k in ranked if is_valid(scene_of(k))), None)
+        if best is None:
+            names = ", ".join(name for name, found in alternatives.items() if len(found) > 1)
+            raise InputError(
+                f"{self.scene.name}: no models of {names} that the scene leaves open go together "
+                'with what it states; name their rungs, or accuracy = "given"'
+            )
+        why = (
+            "cheapest that is accurate enough" if good[best] else "most accurate that was measured"
+        )
+        if beyond.any():
+            why = "cheapest beside what cannot be helped"
+        if missing[best]:
+            why += ", by the errors that are known"
         return scene_of(best), why
 
     def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:

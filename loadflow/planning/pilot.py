@@ -17,10 +17,10 @@ from threadpoolctl import threadpool_limits
 
 from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
-from loadflow.planning.asked import Asked, changes, tried, without
+from loadflow.planning.asked import Asked, changes, resting, tried, without
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
-from loadflow.planning.plan import chosen_models, needed_stages
+from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -39,10 +39,6 @@ SOLVED = 1.0
 
 WORTH = 0.1
 """Share of the smallest error allowed, below which an indicator needs no measurement."""
-
-
-LITTLE = 0.02
-"""Share of the time of a run that an effect may take to be kept unasked: to ask takes longer."""
 
 
 @dataclass(frozen=True)
@@ -333,6 +329,7 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
     sizes: dict[str, Sizes] = {}
     refused: dict[str, str] = {}
     inputs: dict[str, Any] = dict(given or {})
+    shafts = {resting(scene): inputs["shaft"]} if "shaft" in inputs else {}
     for model, probe in PROBES.items():
         ours = [effect for effect in effects if effect.probed == model]
         if not ours:
@@ -345,11 +342,12 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             for name in probe.reads:
                 if name not in inputs:
                     inputs[name] = STAGES[name].run(scene, case, inputs)
+                    shafts |= {resting(scene): inputs[name]} if name == "shaft" else {}
         except SolverError:
             break  # the run itself says so of this case
         if not probe.can_answer(case, inputs):
             continue
-        asked = Asked(probe, scene, case, inputs)
+        asked = Asked(probe, case, inputs, shafts)
         answers = asked.answers
 
         scene, best = _all_on(scene, ours, answers, refused)

@@ -14,12 +14,16 @@ from loadflow.planning.effects import EffectVerdict, concerned, estimates
 from loadflow.planning.ladder import expected_seconds, measured
 from loadflow.planning.shortfalls import shortfalls
 from loadflow.planning.verification import CHECK
+from loadflow.quantities import percent
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import OCCASIONS
 from loadflow.stages.effects.effect import Sizes
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import Rungs, Stage
+
+LITTLE = 0.02
+"""Share of the time of a run that an effect may take to be kept unasked: to ask takes longer."""
 
 
 def stage_named(name: str) -> Stage:
@@ -215,7 +219,8 @@ def _effects(wanted: Scene, choice: Choice, needed: set[str]) -> Iterator[Effect
         elif not kept and effect.switched(wanted, True) is None:
             why = f"it would need {effect.needs}"
         else:
-            why = "the accuracy asks for it, or it costs nothing" if kept else "small enough"
+            little = f"it takes {percent(LITTLE)} of the time or less"
+            why = f"the accuracy asks for it, or {little}" if kept else "small enough"
         yield EffectInPlan(
             effect.name,
             kept,

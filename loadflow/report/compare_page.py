@@ -66,12 +66,20 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         data=data,
         groups=groups.items(),
         silent=silent,
+        reasons=_reasons(groups),
         behind=behind.items(),
         sketch=sketch(data["shaft"]),
-        verdicts={one["name"]: [_verdict(v) for v in one["verdicts"]] for one in candidates},
+        verdicts={one["name"]: [verdict_row(v) for v in one["verdicts"]] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
+
+
+def _reasons(groups: Mapping[str, list[Any]]) -> dict[str, int]:
+    """Why numbers lack an interval, an error or a band: each reason once, with its number."""
+    cells = (cell for rows in groups.values() for *_, own in rows for cell in own)
+    found = dict.fromkeys(why for cell in cells for _, why in cell.missing)
+    return {why: k for k, why in enumerate(found, 1)}
 
 
 def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:
@@ -165,7 +173,10 @@ UNITS = {
 """Factor and unit in which a verdict in SI units is shown."""
 
 
-def _verdict(verdict: Mapping[str, Any]) -> dict[str, str]:
+def verdict_row(verdict: Mapping[str, Any]) -> dict[str, str]:
+    """A verdict (`loadflow.verdict.Verdict.as_dict`) as it stands in a table: value and limit in
+    units that fit, and where they are from.
+    """
     factor, unit = UNITS.get(verdict["unit"], (1.0, verdict["unit"]))
     zero, unit = scale_of(unit)
     value, limit = (

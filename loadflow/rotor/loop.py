@@ -61,7 +61,9 @@ def turning_state(
     scalars = state.scalars
     scalars[k.S_SPEED] = speed
     scalars[k.S_FILTERED] = m.gear_ratio * speed
-    scalars[k.S_TORQUE] = control_torque(c, m.gear_ratio * speed, pitch - c.minimum_pitch)
+    # not compiled for this one call
+    torque = control_torque.py_func(c, m.gear_ratio * speed, pitch - c.minimum_pitch)
+    scalars[k.S_TORQUE] = torque
     scalars[k.S_POWER] = scalars[k.S_FILTERED] * scalars[k.S_TORQUE]
     scalars[k.S_FLOOR] = c.minimum_pitch
     gain = 1 / (1 + pitch / c.gain_halving_pitch)

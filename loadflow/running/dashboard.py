@@ -19,6 +19,7 @@ from loadflow.errors import InputError
 from loadflow.plots.journal import film_series, orbit
 from loadflow.plots.style import envelope, figure, readable
 from loadflow.quantities import load_cases
+from loadflow.report.compare_page import verdict_row
 from loadflow.running.folder import answered, open_part, read_manifest
 from loadflow.studies.channels import channel, channel_names
 from loadflow.verdict import from_dataset
@@ -30,6 +31,12 @@ LOCAL = "127.0.0.1"
 """Where it is served: for this machine alone."""
 
 TITLE = "loadflow"
+
+
+_COLUMNS = {
+    "subject": "bearing", "quantity": "what", "answer": "verdict", "value": "value",
+    "limit": "limit", "where": "governed by", "source": "limit from", "note": "remarks",
+}  # fmt: skip
 
 
 class RunView:
@@ -83,10 +90,9 @@ class RunView:
         tree: Any = open_cube(path)
         if "verdicts" not in tree.children:
             return []
-        return [
-            {"bearing": v.subject, "what": v.quantity, "verdict": v.answer, "in words": v.sentence}
-            for v in from_dataset(tree["verdicts"].to_dataset())
-        ]
+        told = from_dataset(tree["verdicts"].to_dataset())
+        rows = [verdict_row(verdict.as_dict()) for verdict in told]
+        return [{words: row[key] for key, words in _COLUMNS.items()} for row in rows]
 
     def models(self) -> list[dict[str, str]]:
         """Model of each stage with its error."""
@@ -152,12 +158,8 @@ def application(folder: str | Path) -> Callable[[], Any]:
         case = pn.widgets.Select(name="load case", options=view.cases)
         channels = pn.widgets.Select(name="channel", options=view.channels())
         head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{load_cases(len(view.cases))}")
-        rooms = [
-            (
-                "Verdicts",
-                pn.Column(_table(pn, view.verdicts()), "### Models", _table(pn, view.models())),
-            )
-        ]
+        told = _table(pn, view.verdicts()), "### Models", _table(pn, view.models())
+        rooms = [("Verdicts", pn.Column(*told, sizing_mode="stretch_width"))]
         loads = pn.bind(lambda c, n: _drawn(pn, view.load_figure(c, n)), case, channels)
         rooms.append(("Loads", pn.Column(channels, loads)))
         if view.bearings():
@@ -172,7 +174,7 @@ def application(folder: str | Path) -> Callable[[], Any]:
         if pn.state.location is not None:  # ?case=…&tab=1 opens what a link means
             pn.state.location.sync(case, {"value": "case"})
             pn.state.location.sync(tabs, {"active": "tab"})
-        return pn.Column(head, case, tabs, sizing_mode="stretch_width", max_width=1000)
+        return pn.Column(head, case, tabs, sizing_mode="stretch_width", max_width=1200)
 
     return page
 
@@ -254,4 +256,8 @@ def _table(pn: Any, rows: list[dict[str, str]]) -> Any:
 
     if not rows:
         return pn.pane.Markdown("None in this run.")
-    return pn.pane.DataFrame(pd.DataFrame(rows), index=False, sizing_mode="stretch_width")
+    table = pn.pane.DataFrame(
+        pd.DataFrame(rows), index=False, sizing_mode="stretch_width", text_align="start",
+        stylesheets=["table thead th { text-align: start !important; }"],
+    )  # fmt: skip
+    return pn.Column(table, sizing_mode="stretch_width", scroll="x-auto")  # wider than a phone is

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.report import Table
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.wind.cases import stands_or_starts
 
 _TURNS = 30 / np.pi
 
@@ -39,9 +39,7 @@ def start_tables(data: xr.Dataset) -> Iterator[Table]:
         Films of a run, over ``bearing`` and ``case``.
     """
     dlcs = [str(dlc) for dlc in data["dlc"].values]
-    some = [
-        k for k, dlc in enumerate(dlcs) if dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
-    ]
+    some = [k for k, dlc in enumerate(dlcs) if stands_or_starts(dlc)]
     if not some:
         return
     part = data.isel(case=some)

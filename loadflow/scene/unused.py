@@ -19,7 +19,7 @@ from loadflow.scene.section import Section, idle_keys
 from loadflow.scene.unused_rolling import mounted, of_each_rolling, of_friction
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
-from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase
+from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase, stands_or_starts
 
 _CUBES = (".h5", ".nc")
 _SIMULATED = (
@@ -335,7 +335,7 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
     if isinstance(journal.heat, Heat) and not journal.in_motion:
         for key in ("heat.capacity", "heat.start_temperature"):
             yield key, "only a film in motion stores heat"
-    starts = {dlc for dlc in scene.loads.dlcs if _starts(dlc)}
+    starts = {dlc for dlc in scene.loads.dlcs if stands_or_starts(dlc)}
     if scene.loads.source == "simulate" and not starts:
         yield "limits.start_time", _NO_START
     if scene.loads.source == "simulate" and len(starts) == len(scene.loads.dlcs):
@@ -352,13 +352,9 @@ def _tilts(scene: Scene, bearing: str) -> bool:
 _NO_START = "no load case of this scene starts, stops or stands"
 
 
-def _starts(dlc: str) -> bool:
-    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
-
-
 def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
     simulated = scene.loads.source == "simulate"
-    starts = any(map(_starts, scene.loads.dlcs))
+    starts = any(map(stands_or_starts, scene.loads.dlcs))
     for name in OF_COLLARS if not scene.thrust.collars else ():
         if name in scene.thrust.changed:
             yield f"thrust.{name}", "no bearing of this scene is a thrust collar"
@@ -398,7 +394,7 @@ def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
     """Numbers of events that no load case of simulated loads takes."""
     if scene.loads.source == "files":  # their load cases are known when they are read
         return
-    starts = set(filter(_starts, scene.loads.dlcs))
+    starts = set(filter(stands_or_starts, scene.loads.dlcs))
     counted, yearly = {*scene.wear.counts}, {*scene.lifetime.per_year}
     if not starts:
         yield "events", _NO_START
@@ -411,7 +407,7 @@ def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
-    counted = set(filter(_starts, scene.lifetime.per_year)) - {*scene.wear.counts}
+    counted = set(filter(stands_or_starts, scene.lifetime.per_year)) - {*scene.wear.counts}
     if "journal.wear" not in scene.results or not counted:
         yield "years", "no wear follows from lifetime.per_year"
 

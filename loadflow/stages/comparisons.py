@@ -190,7 +190,7 @@ def _better_films(
         options = {bearing: better.journal.at(bearing) for bearing in films}
         if better.journal.in_motion and better.journal.heat is not None:
             options = {
-                bearing: options[bearing].at_temperature(float(film["temperature"][0]))
+                bearing: options[bearing].at_temperature(float(film["temperature"].median()))
                 for bearing, film in films.items()
             }
         yield FILM_MODEL.name, f"the film {FILM_MODEL.key(better)}", options

@@ -16,6 +16,7 @@ from loadflow.stages.labelling import labelled
 from loadflow.stages.running_time import counted, time_shares
 from loadflow.stages.summary import over_cases
 from loadflow.stages.turning import is_parked, turning
+from loadflow.wind.cases import stands_or_starts
 
 
 def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
@@ -25,7 +26,8 @@ def summary(parts: Mapping[Case, xr.DataTree]) -> xr.Dataset:
 
 def _summary_of(case: Case, tree: xr.DataTree) -> xr.Dataset:
     nodes = [node.to_dataset().load() for node in tree.children.values()]
-    parts = [extremes(samples, is_parked(case)).merge(mixed_friction(samples)) for samples in nodes]
+    how = {"parked": is_parked(case), "starts": stands_or_starts(case.dlc)}
+    parts = [extremes(samples, **how).merge(mixed_friction(samples)) for samples in nodes]
     return xr.concat(parts, "bearing", combine_attrs="override").assign_coords(
         bearing=list(tree.children)
     )
@@ -51,7 +53,8 @@ EXTREMES = {
 
 IN_MOTION = ("maximum_pressure",)
 """Of which the extreme is one of samples in which the shaft turns: under a shaft that stands, oil
-shut in between the surfaces has any pressure, and what they carry is the specific load."""
+shut in between the surfaces has any pressure, and what they carry is the specific load. Where it
+starts or stops, a film without asperities counts up to E_krit: beyond it they share the load."""
 
 MEANS = {
     "mean_eccentricity_ratio": ("eccentricity_ratio", "1", "mean ε"),
@@ -68,23 +71,25 @@ SUPPLY = {
 """Means over all samples that have a film: the pump does not stop with the rotor."""
 
 
-def extremes(samples: xr.Dataset, parked: bool = False) -> xr.Dataset:
+def extremes(samples: xr.Dataset, parked: bool = False, starts: bool = False) -> xr.Dataset:
     """Reduce the film of a series of weighted loads to extremes and means.
 
-    A `parked` shaft stands, however it swings and slips in its brake.
+    A `parked` shaft stands, however it swings and slips in its brake. One that `starts`, or stops,
+    goes through mixed friction: see `IN_MOTION`.
 
     Samples in contact or without an answer have no values; they are counted. Means leave out those
     in which the rotor stands or idles, where ``running`` says so.
     """
     weight, turns = samples["weight"], turning(samples, parked)
+    floats = turns & ~_mixed(samples) if starts else turns
     found: dict[str, tuple[xr.DataArray, str, str]] = {}
     for name, (of, which, units, meaning) in EXTREMES.items():
         if of in samples:
-            found |= _extreme(samples, name, _judged(samples, of, turns), which, units, meaning)
+            found |= _extreme(samples, name, judged(samples, of, floats), which, units, meaning)
     if "load" in samples:
         values, meaning = np.where(turns, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
-    found |= _grid_errors(samples, turns)
+    found |= _grid_errors(samples, floats)
     for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
         for name, (of, units, meaning) in means.items():
             if of in samples:
@@ -104,7 +109,15 @@ def extremes(samples: xr.Dataset, parked: bool = False) -> xr.Dataset:
     return labelled(found)
 
 
-def _judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
+def _mixed(samples: xr.Dataset) -> NDArray[np.bool_]:
+    """Samples above E_krit of a film that knows no asperities, which share the load there."""
+    if "contact_share" in samples or "eccentricity_ratio" not in samples:
+        return np.zeros(samples.sizes["sample"], dtype=bool)
+    critical = samples.attrs.get("critical_eccentricity_ratio", np.inf)
+    return np.asarray(samples["eccentricity_ratio"].values > critical)
+
+
+def judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
     """Values of which the extreme is taken; NaN where they do not count."""
     values = samples[of].values
     return np.where(turns, values, np.nan) if of in IN_MOTION else values
@@ -135,7 +148,7 @@ def _grid_errors(
     found = {}
     for name in ("smallest_film", "largest_pressure"):
         of, which, units, meaning = EXTREMES[name]
-        values, bounds = _judged(samples, of, turns), samples.get(of + GRID_ERROR)
+        values, bounds = judged(samples, of, turns), samples.get(of + GRID_ERROR)
         bound = samples.attrs.get(of + GRID_ERROR, np.nan)
         if bounds is not None and np.isfinite(values).any():
             bound = bounds.values[int(which(np.where(np.isfinite(values), values, np.nan)))]

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.journal.collar_series import CollarPath
 from loadflow.journal.thrust_curves import CollarFilms
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
@@ -202,6 +203,8 @@ def solved(
             values[there] = getattr(curve, name)[there]
         open_ = [] if moving else np.flatnonzero(~there & ~touching).tolist()
         about["interpolation_error"] = curve.interpolation_error
+        if tilt is not None and isinstance(curve, CollarPath):
+            about["moment_error"] = curve.moment_error
     for k in open_:
         try:
             turned = None if tilt is None else tilt[k]

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.wind.cases import LOAD_CASES, load_case
+from loadflow.wind.cases import LOAD_CASES, load_case, stands_or_starts
 
 SLOWEST = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
@@ -31,6 +31,25 @@ def always_turns(scene: Scene) -> bool:
         return True
     rows = [load_case(dlc) for dlc in scene.loads.dlcs]
     return all(row.operating and row.events == ("none",) for row in rows)
+
+
+def runs_throughout(table: xr.Dataset) -> NDArray[np.bool_]:
+    """Load cases of a table in which a film is to part the surfaces from beginning to end.
+
+    Where the shaft stands, starts or stops it rests on them, or rubs, as it must.
+    """
+    return np.array([not stands_or_starts(str(dlc)) for dlc in table["dlc"].values], dtype=bool)
+
+
+def of_running(table: xr.Dataset) -> xr.Dataset:
+    """A table of films with films and contact of load cases whose shaft runs throughout alone.
+
+    In the others smallest film and largest ε are NaN, and no sample counts as in contact.
+    """
+    runs = xr.DataArray(runs_throughout(table), dims="case")
+    films = [name for name in ("smallest_film", "largest_eccentricity_ratio") if name in table]
+    masked = {name: table[name].where(runs) for name in films}
+    return table.assign(masked | {"in_contact": table["in_contact"].where(runs, 0)})
 
 
 def turning(samples: xr.Dataset, parked: bool = False) -> NDArray[np.bool_]:

@@ -18,7 +18,7 @@ from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
 from loadflow.stages.stage import Stage, always
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.wind.cases import stands_or_starts
 
 _AFTER = 0.25  # of the time in contact, for which a cycle is followed beyond it
 
@@ -42,7 +42,7 @@ def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) 
         options = scene.journal.at(name)
         cycles, temperatures = [], []
         for case in cases:
-            if not (case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].stands_or_starts):
+            if not stands_or_starts(case.dlc):
                 continue
             film = inputs[case.name]["journal"][name].to_dataset().load()
             loads, shaft = (inputs[case.name][key].load() for key in ("loads", "shaft"))

@@ -107,7 +107,8 @@ class LoadflowAccessor:
         Returns
         -------
         xarray.DataArray
-            Over ``case``, ``channel`` and ``m``, in the units of the coordinate ``units``.
+            Over ``case``, ``channel`` and ``m``, in the units of the coordinate ``units``; the
+            attribute ``units`` is there where these are one.
 
         Raises
         ------
@@ -133,7 +134,7 @@ class LoadflowAccessor:
         -------
         xarray.DataArray
             Over ``case``, ``channel`` and ``frequency``, Hz; in the units of the coordinate
-            ``units``.
+            ``units``; the attribute ``units`` is there where these are one.
         """
         from scipy.signal import welch
 

@@ -20,7 +20,7 @@ from loadflow.journal import Equilibrium
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_film
-from loadflow.studies.grown_films import fast_journal
+from loadflow.studies.grown_films import fast_journal, pressed
 
 HEAVIER = 1.1
 """Factor on a load, for the power of it that an answer follows."""
@@ -95,7 +95,7 @@ def films_of(options: Journal, samples: xr.Dataset, near: Films | None = None) -
     answer = _at(options, samples, 1.0, None if near is None else near.answer)
     judged = _judged(samples, answer)
     thin = int(np.argmin(np.where(judged, answer.minimum_film, np.inf)))
-    hard = int(np.argmax(np.where(answer.converged, answer.maximum_pressure, 0.0)))
+    hard = int(np.argmax(pressed(options, samples, answer)))
     two = np.array([thin, hard])
     heavier = _at(options, samples.isel(sample=two), HEAVIER, _rows(answer, two))
     return Films(options, samples, answer, thin, hard, heavier)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -39,6 +39,7 @@ from loadflow.studies.compare_numbers import (
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import (
+    STARTS_ALONE,
     Comparison,
     Judged,
     Number,
@@ -49,6 +50,7 @@ from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
+from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.studies.wear_bands import with_error
@@ -114,7 +116,7 @@ def judged(run: Finished, folder: Path) -> Judged:
         numbers={key: numbers[key] for key in QUANTITIES},
         verdicts=verdicts,
         thrust=carries_thrust(run.scene, run.tables),
-        governs=margin.governs,
+        governs=_governed(margin),
         change=margin.change,
         models={stage: told["rung"] for stage, told in run.manifest.get("rungs", {}).items()},
         checks=_checks(run.tables),
@@ -125,6 +127,12 @@ def judged(run: Finished, folder: Path) -> Judged:
     )
 
 
+def _governed(margin: Margin) -> str:
+    """Which limit is reached first, and which ones have no answer."""
+    none = f"not counted, without an answer: {margin.uncounted}" if margin.uncounted else ""
+    return "; ".join(filter(None, (margin.governs, none)))
+
+
 def _numbers(
     run: Finished, verdicts: Sequence[Verdict], margin: Margin
 ) -> Iterator[tuple[str, Number]]:
@@ -132,8 +140,8 @@ def _numbers(
     error = error_of(run, *margin.models) / abs(margin.power) if margin.power else math.nan
     yield "load_factor", Number(
         margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
-        holds=margin.factor >= 1, case=margin.case, time=margin.time, place=margin.place,
-        note=margin.governs,
+        holds=None if math.isnan(margin.factor) else margin.factor >= 1,
+        case=margin.case, time=margin.time, place=margin.place, note=_governed(margin),
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
@@ -159,18 +167,21 @@ def in_wide_bore(ratio: Number, scene: Scene) -> Number:
     """An eccentricity ratio; above 1 in lobes or pads it says why there is a film none the less."""
     shaped = ratio.value > 1 and scene.journal.at(ratio.place).geometry.shape.segments
     said = "over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more"
-    return replace(ratio, note=said) if shaped else ratio
+    return replace(ratio, note=_together(ratio.note, said)) if shaped else ratio
+
+
+def _together(*notes: str) -> str:
+    return "; ".join(filter(None, notes))
 
 
 def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
     table = run.tables["journal"]
     groups = Groups.of(table)
-    film = extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
+    film = _film(run, table, groups)
     yield "minimum_film", against(film, verdicts, "smallest film", 1e6)
-    if film.place:
-        yield "film_to_roughness", _over_roughness(film, run.scene.journal.at(film.place))
+    yield "film_to_roughness", _over_roughness(film, run.scene.journal.at)
     name, model = "largest_eccentricity_ratio", "eccentricity ratio"
-    ratio = extreme(run, table, groups, name, "most", 1.0, "–", model)
+    ratio = extreme(run, table, groups, name, "most", 1.0, "–", model, running=True)
     ratio = against(ratio, verdicts, "eccentricity ratio ε", 1.0)
     yield "eccentricity_ratio", in_wide_bore(ratio, run.scene)
     name, model = "largest_pressure", "maximum pressure"
@@ -195,21 +206,21 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     groups, share = Groups.of(table), shares_of(run, table)
     own = [v for v in verdicts if v.subject.startswith(("thrust ", "conical-pair "))]
     beside = "journal" in run.tables
-    film = extreme(run, table, groups, "smallest_film", "least", 1e6, "µm", "minimum film")
-    film = against(film, own, "smallest film", 1e6)
+    film = against(_film(run, table, groups), own, "smallest film", 1e6)
     name, model = "largest_pressure", "maximum pressure"
     pressure = extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     pressure = against(pressure, own, "largest film pressure", 1e-6)
     if not beside:
-        film, pressure = (replace(number, note=_OF_CONES) for number in (film, pressure))
+        film, pressure = (
+            replace(number, note=_together(number.note, _OF_CONES)) for number in (film, pressure)
+        )
     yield ("thrust_film" if beside else "minimum_film"), film
     yield ("thrust_pressure" if beside else "film_pressure"), pressure
     if beside:
         return
+    yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings.__getitem__)
     if film.place:
-        bearing = run.scene.thrust.bearings[film.place]
-        yield "film_to_roughness", _over_roughness(film, bearing)
-        yield "eccentricity_ratio", clearance_used(film, bearing)
+        yield "eccentricity_ratio", clearance_used(film, run.scene.thrust.bearings[film.place])
     yield "mixed_time", mixed_time(run, table, share, groups)
     yield from _lost(run, table, table["lost_power"], _OF_CONES)
 
@@ -222,13 +233,19 @@ def _bores(run: Finished) -> dict[str, xr.Dataset]:
     return {name: node.to_dataset() for name, node in found.children.items()}
 
 
-def _over_roughness(film: Number, surfaces: Journal | AnyAxial) -> Number:
-    """A film over the roughness R_z of both surfaces."""
-    rough = surfaces.contact_film * 1e6
+def _film(run: Finished, table: xr.Dataset, groups: Groups) -> Number:
+    """Smallest film while the shaft runs, µm."""
+    name, model = "smallest_film", "minimum film"
+    return extreme(run, table, groups, name, "least", 1e6, "µm", model, running=True)
+
+
+def _over_roughness(film: Number, at: Callable[[str], Journal | AnyAxial]) -> Number:
+    """A film over the roughness R_z of both surfaces of the bearing at its place."""
+    if not film.place:
+        return replace(film, unit="–")
+    rough = at(film.place).contact_film * 1e6
     value, low, high = (getattr(film, name) / rough for name in ("value", "low", "high"))
-    return replace(
-        film, value=value, low=low, high=high, unit="–", limit=1.0, holds=value >= 1, note=""
-    )
+    return replace(film, value=value, low=low, high=high, unit="–", limit=1.0, holds=value >= 1)
 
 
 def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, Number]]:
@@ -262,8 +279,10 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         if few is not None:
             number = replace(number, error=error_of(run, "rolling.friction", few))
         yield name, number
-    losses = rolling_losses(run.scene, run.folder)
-    if losses is not None:
+    losses = rolling_losses(run.scene, run.folder, table)
+    lost = None if losses is None else losses.power
+    yield "bearing_temperature", warmest(run.scene.friction, table, lost, share)
+    if losses is not None and losses.place:
         speed = losses.speed * 30 / np.pi
         low, high = seeds_of(
             run, losses.by_case, lambda seen: float(np.median(np.concatenate(seen)))
@@ -273,6 +292,9 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
             error_of(run, "rolling.friction", "film parameter"), case=losses.case, time=losses.time,
             place=losses.place, note=f"median below {speed:.3g} 1/min",
         )  # fmt: skip
+    elif losses is not None:
+        yield "film_parameter", Number(math.nan, "–", note=f"n/a: {STARTS_ALONE}")
+    if losses is not None:
         for name, each in losses.torques.items():
             own = each.sel(case=table["case"].values).sum("bearing").values
             torque = lifetime_mean(run, own, share, groups, "N m")
@@ -280,7 +302,7 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
             yield name, replace(torque, error=error)
     *some, last = "slip of rollers", *uncounted_friction(run.scene)
     left_out = f"{', '.join(some)} and {last}" if some else last
-    yield from _lost(run, table, None if losses is None else losses.power, f"without {left_out}")
+    yield from _lost(run, table, lost, f"without {left_out}")
 
 
 def _years(damage: np.ndarray, share: np.ndarray, slope: float, some: np.ndarray) -> float:

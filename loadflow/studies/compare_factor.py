@@ -9,11 +9,15 @@ from pathlib import Path
 
 import numpy as np
 import xarray as xr
+from scipy.optimize import brentq
 
 from loadflow.cube.hdf5 import read_variables
+from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.studies.compare_seeds import Draw
+from loadflow.tribology.film import short_bearing
 
 SAMPLES = 40
 """Samples of each case that are looked at again, the extremes among them."""
@@ -24,11 +28,20 @@ WIDEST = 16.0
 LOADS, LINE = ("force", "moment"), ("tilt", "curvature")
 """What acts on a bearing, and how the shaft lies in it."""
 
+CLEARANCE_TILT = "clearance_tilt"
+"""Part of the tilt of a shaft that it has by its places in the films of its journal bearings."""
+
+_RATIOS = 1.0 - np.geomspace(1.0, 1e-4, 2001)  # eccentricity ratios, from 0
+_CARRIED = short_bearing(_RATIOS, 1.0)[0]  # Sommerfeld numbers there, which go with the load
+
 NEVER = 1.05
 """Over the least factor that is asked: with less, the limit was not reached."""
 
 _HALVINGS = 9
 _CLOSE = 2e-3  # logarithm of a factor: less than films of these models are good to
+_OUTWARD = 4  # steps to where a limit should be, beyond which the widest factor is asked
+_STEPS = 40  # of the root finder; 16 in all are the most that curved reserves took
+_NONE = 50.0  # logarithm of a reserve that is as good as none
 
 
 @dataclass(frozen=True)
@@ -53,6 +66,8 @@ class Margin:
         Result and quantity whose error by models the factor has.
     power : float
         Of the load that this quantity follows.
+    uncounted : str
+        Limits whose factor has no answer, and why.
     """
 
     factor: float
@@ -66,6 +81,7 @@ class Margin:
     time: float = math.nan
     models: tuple[str, str] = ("", "")
     power: float = math.nan
+    uncounted: str = ""
 
 
 def largest_factor(holds: Callable[[float], bool]) -> float:
@@ -94,44 +110,53 @@ def pressure_factor(value: Callable[[float, float], float], limit: float) -> flo
 
 
 def _crossing(reserve: Callable[[float], float]) -> float:
-    """Factor to `_CLOSE` at which a reserve, which falls about as a power of it, is used up.
+    """Factor to `_CLOSE` at which a reserve, which falls with it, is used up, within `WIDEST`.
 
-    By secants through the logarithm of the factor between bounds, halved where there is no answer,
-    which is none of a factor that is too large; within `WIDEST`.
+    On the side where some is left; there is none without an answer, which is that of a factor that
+    is too large. Steps by the power of the factor that the reserve follows lead to bounds around
+    it, and Brent's method in its logarithm between these.
+
+    Raises
+    ------
+    loadflow.errors.SolverError
+        Not found in `_STEPS`.
     """
+    seen: dict[float, float] = {}
 
     def known(x: float) -> float:
-        try:
-            found = reserve(math.exp(x))
-        except ValueError:  # logarithm of what is not there
-            return -math.inf
-        return found if math.isfinite(found) else -math.inf
+        if x not in seen:
+            try:
+                found = reserve(math.exp(x))
+            except ValueError:  # logarithm of what is not there
+                found = -math.inf
+            seen[x] = found if math.isfinite(found) else -math.inf
+        return seen[x]
 
     widest = math.log(WIDEST)
-    (low, high), (below, above) = (-widest, widest), (math.nan, math.nan)
-    x, left, power = 0.0, known(0.0), 1.0
-    while True:
-        if left >= 0:
-            low, below = x, left
-        else:
-            high, above = x, left
-        if high - low < _CLOSE or low == widest or high == -widest:
-            return math.exp(low)
-        steep = (below - above) / (high - low)
-        if math.isfinite(steep) and steep > 0:
-            x = low + below / steep
-            inner = min(0.1 * (high - low), 0.4 * _CLOSE)  # the bounds close in from both sides
-            x = min(max(x, low + inner), high - inner)
-        elif math.isfinite(left) and math.isnan(steep):  # one bound is not known yet: beyond it
-            step = 1.2 * left / power + math.copysign(_CLOSE, left)
-            seen, (x, before) = x, (min(max(x + step, -widest), widest), left)
-            left = known(x)
-            if math.isfinite(left) and x != seen and (before - left) / (x - seen) > 0:
-                power = (before - left) / (x - seen)
-            continue
-        else:
-            x = 0.5 * (low + high)
+    low, high, x, power = -widest, widest, 0.0, 1.0
+    for _ in range(_OUTWARD):
         left = known(x)
+        low, high = (x, high) if left >= 0 else (low, x)
+        if {low, high} <= seen.keys() or not math.isfinite(left):
+            break
+        before, step = x, 1.2 * left / power + (_CLOSE if left >= 0 else -_CLOSE)
+        x = min(max(x + step, -widest), widest)
+        steep = (left - known(x)) / (x - before)
+        power = steep if 0 < steep < math.inf else power
+    if known(high) >= 0:
+        return WIDEST
+    if known(low) < 0:
+        return 1.0 / WIDEST
+    while high - low > _CLOSE and not math.isfinite(known(high)):
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if known(middle) >= 0 else (low, middle)
+    if high - low <= _CLOSE:
+        return math.exp(low)
+    try:
+        root = brentq(lambda x: max(known(x), -_NONE), low, high, xtol=_CLOSE, maxiter=_STEPS)
+    except RuntimeError as error:
+        raise SolverError(f"no factor on load or viscosity to a limit of films: {error}") from error
+    return math.exp(max(x for x, left in seen.items() if left >= 0 and x <= root))
 
 
 def oil_told(bearing: Journal | AnyAxial, factor: float = 1.0) -> str:
@@ -145,19 +170,51 @@ def reduced_samples(path: Path, place: str) -> xr.Dataset:
     return read_variables(path, ("force", "moment", "speed", "weight", "time"), place)
 
 
-def series_of(folder: Path, case: str, place: str) -> xr.Dataset:
+def series_of(scene: Scene, folder: Path, case: str, place: str) -> xr.Dataset:
     """What acts on a bearing through a case, and how the shaft lies in it.
 
     `time`, `speed` (sample), `force`, `moment` and, of a shaft that bends, `tilt`, `curvature`
-    (sample, axis), and `alignment` (axis) of a bore that follows it, in the frame of the cube.
+    (sample, axis), and `alignment` (axis) of a bore that follows it, in the frame of the cube; of
+    one that films hold `clearance_tilt` (sample, axis), too.
     """
     speed = read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"]
-    names = (*LOADS, *LINE, "alignment")
-    shaft = read_variables(folder / "shaft" / f"{case}.h5", names).sel(bearing=place)
-    known = [name for name in names if name in shaft and bool(shaft[name].notnull().all())]
+    names = (*LOADS, *LINE, "alignment", "displacement")
+    shaft = at_place(scene, read_variables(folder / "shaft" / f"{case}.h5", names), place)
+    known = [
+        name
+        for name in (*LOADS, *LINE, "alignment", CLEARANCE_TILT)
+        if name in shaft and bool(shaft[name].notnull().all())
+    ]
     series = shaft[known].assign(speed=("time", speed.values)).rename(time="sample")
     time = speed["time"].values.astype(float)
     return series.drop_vars("sample", errors="ignore").assign(time=("sample", time))
+
+
+def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
+    """Loads and shaft of one bearing, with `clearance_tilt` where films hold the shaft.
+
+    By `film`: how far the place of the shaft there turns the straight line through both bearings,
+    and by how much it could at most, the coordinate `largest_tilt`. What housings and frame under
+    a film give way counts with it.
+    """
+    own = shaft.sel(bearing=place)
+    concept = next((one for one in scene.shaft.concepts if place in one.bearings), None)
+    if concept is None or len(concept.bearings) != 2 or "displacement" not in shaft:
+        return own
+    distance = concept.positions[1] - concept.positions[0]
+    parts, largest = [], []
+    for name, along in zip(concept.bearings, (-distance, distance)):
+        support = scene.shaft.coupled.get(name)
+        if support is not None and support.stiffness == "journal":
+            slope = shaft["displacement"].sel(bearing=name, drop=True) / along
+            # what moves along y turns about z, what moves along z about −y
+            turned = [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")]
+            parts.append(xr.concat(turned, "axis").assign_coords(axis=shaft["axis"]))
+            largest.append(scene.journal.at(name).geometry.clearance / abs(distance))
+    if not parts:
+        return own
+    lies = xr.concat(parts, "film").assign_coords(largest_tilt=("film", largest))
+    return own.assign({CLEARANCE_TILT: lies})
 
 
 def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
@@ -167,6 +224,19 @@ def at_time(series: xr.Dataset, time: float) -> xr.Dataset:
 
 
 def grown(samples: xr.Dataset, factor: float) -> xr.Dataset:
-    """Samples with a factor on their loads, which the line of the shaft under them follows."""
+    """Samples with a factor on their loads, which the bend of the shaft under them follows.
+
+    How bores are turned stays. Where films hold the shaft, its place in each of them moves out as
+    in the short bearing of [Ocvirk 1952] at rest, within the clearance.
+    """
     names = [name for name in LOADS + LINE if name in samples]
-    return samples.assign({name: factor * samples[name] for name in names})
+    more = samples.assign({name: factor * samples[name] for name in names})
+    if "tilt" not in samples or CLEARANCE_TILT not in samples:
+        return more
+    lies = samples[CLEARANCE_TILT]
+    size = np.sqrt((lies**2).sum("axis"))
+    ratio = np.minimum(size / lies["largest_tilt"], _RATIOS[-1])
+    beyond = np.interp(factor * np.interp(ratio, _RATIOS, _CARRIED), _CARRIED, _RATIOS)
+    further = ratio.copy(data=beyond / np.maximum(ratio.values, _RATIOS[1])) - factor
+    tilt = more["tilt"] + (lies * further).sum("film")
+    return more.assign(tilt=tilt.transpose(*samples["tilt"].dims))

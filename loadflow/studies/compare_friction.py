@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +15,7 @@ from loadflow.rolling.friction import torques_beside
 from loadflow.scene.scene import Scene
 from loadflow.stages.friction import CATALOGUES, least_film_parameter
 from loadflow.stages.rolling_at_work import friction_options
+from loadflow.stages.turning import runs_throughout
 from loadflow.studies.compare_margins import looked_at, solved
 
 _SLOW = 0.1  # share of the samples that counts as low speed
@@ -55,17 +56,22 @@ class Losses:
     by_case: dict[str, list[float]]
 
 
-def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
+def rolling_losses(scene: Scene, folder: Path, table: xr.Dataset) -> Losses | None:
     """Friction and films of the rolling bearings in some samples of all cases.
 
-    None where there is no model of friction for one of them.
+    Each is as warm as in the `table` of its run. Films are those of load cases in which the shaft
+    runs throughout: one that starts or stops has none at first. None where there is no model of
+    friction for one of the bearings.
     """
+    judged = {*table["case"].values[runs_throughout(table)].tolist()}
     power: _Means = {}
     torques: dict[str, _Means] = {}
     films: dict[str, list[tuple[float, float, str, float]]] = {}
     for place, part in scene.rolling.bearings.items():
-        options = friction_options(scene.friction, part.geometry)
+        stated = friction_options(scene.friction, part.geometry)
         for case, some in looked_at(folder, place):
+            warm = float(table["bearing_temperature"].sel(case=case, bearing=place))
+            options = replace(stated, temperature=warm)
             speed = some["speed"].values.astype(float)
             answer = solved(scene, place, some)
             try:
@@ -84,19 +90,19 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
             films.setdefault(place, []).extend(
                 (abs(float(v)), float(film), case, float(t))
                 for v, film, t in zip(speed, least, times)
-                if v != 0 and math.isfinite(film)
+                if v != 0 and math.isfinite(film) and case in judged
             )
     cases = list(dict.fromkeys(case for case, _ in power))
     places = list(scene.rolling.geometries)
-    table = _table(power, cases, places)
+    means = _table(power, cases, places)
     of_all = {
-        name: _table(means, cases, places)
-        for name, means in torques.items()
-        if len(means) == len(power)
+        name: _table(found, cases, places)
+        for name, found in torques.items()
+        if len(found) == len(power)
     }
     speeds = np.array([row[0] for rows in films.values() for row in rows])
     if speeds.size == 0:
-        return Losses(table, of_all, math.nan, "", "", math.nan, math.nan, {})
+        return Losses(means, of_all, math.nan, "", "", math.nan, math.nan, {})
     slow = float(np.quantile(speeds, _SLOW))
     thin = {place: [row for row in rows if row[0] <= slow] for place, rows in films.items()}
     medians = {
@@ -107,7 +113,7 @@ def rolling_losses(scene: Scene, folder: Path) -> Losses | None:
     by_case: dict[str, list[float]] = {}
     for _, film, name, _ in thin[place]:
         by_case.setdefault(name, []).append(film)
-    return Losses(table, of_all, medians[place], place, case, time, slow, by_case)
+    return Losses(means, of_all, medians[place], place, case, time, slow, by_case)
 
 
 def error_together(lost: Mapping[str, float], errors: Mapping[str, float]) -> float:

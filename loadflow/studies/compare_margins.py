@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
@@ -19,6 +20,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.film_of_bearing import equilibria, shaft_line
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
+from loadflow.stages.turning import of_running
 from loadflow.studies.compare_factor import (
     NEVER,
     SAMPLES,
@@ -38,6 +40,7 @@ from loadflow.studies.compare_pads import pad_margins
 from loadflow.studies.compare_seeds import of_extreme, of_life, power_of_load
 from loadflow.studies.deviations import oil_of
 from loadflow.studies.grown_films import fast_journal
+from loadflow.studies.rolling_warmth import warmth_of
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.tribology import lubricant
@@ -75,7 +78,9 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     with a_ISO of each sample anew. Of a journal bearing, the sample with the smallest film and that
     with the largest pressure are solved again at rest under larger or smaller loads, warm and
     around the shaft as it bends under these, where the run did so; of bearings of pads, see
-    `pad_margins`.
+    `pad_margins`. A limit whose factor has no answer does not count, and is named. As in the
+    verdicts, films are those of load cases in which the shaft runs throughout: one that starts,
+    stops or stands must touch its shell, and mixed friction and wear tell what that does to it.
     """
     found: list[Margin] = []
     rooms = [room for room in ("journal", "thrust", "rolling") if room in tables]
@@ -83,18 +88,20 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
     same = {room: tables[room].reindex(case=first["case"].values) for room in rooms}
     tables = {**tables, **same}  # all of the same cases, for the seeds
     if "journal" in tables:
-        table = tables["journal"]
+        table = of_running(tables["journal"])
         for place in table["bearing"].values.tolist():
             found += _film_margins(scene, folder, place, table.sel(bearing=place))
     if "thrust" in tables:
+        table = of_running(tables["thrust"])
         for place in scene.thrust.bearings:
-            found += pad_margins(scene, folder, place, tables["thrust"].sel(bearing=place))
+            found += pad_margins(scene, folder, place, table.sel(bearing=place))
     if "rolling" in tables:
         for place in scene.rolling.geometries:
             found += _rolling_margins(scene, folder, place, tables, verdicts)
     known = sorted((one for one in found if math.isfinite(one.factor)), key=lambda one: one.factor)
+    uncounted = "; ".join(one.uncounted for one in found if one.uncounted)
     if not known:
-        return Margin(math.nan)
+        return Margin(math.nan, uncounted=uncounted)
     changes = dict.fromkeys(one.change for one in known if one.change)
     low, high = math.nan, math.nan
     if all(one.drawn is not None for one in known):
@@ -102,49 +109,72 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         low, high = interval(
             Groups.of(first), lambda some: float(np.nanmin([drawn(some) for drawn in draws]))
         )
-    return replace(known[0], change="; ".join([*changes][:_TOLD]), low=low, high=high)
+    told = "; ".join([*changes][:_TOLD])
+    return replace(known[0], change=told, low=low, high=high, uncounted=uncounted)
 
 
 # --- films ----------------------------------------------------------------------------------------
 
 
 def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> Iterator[Margin]:
-    """Margins of smallest film and of largest pressure of one journal bearing."""
+    """Margins of one journal bearing: of its film, its pressure, and its load as it stands."""
     stated = scene.journal.at(place)
     if (table["in_contact"] > 0).any():
         case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
         yield Margin(0.0, place, case, f"shaft and shell touch in {place}", f"{place}: thicker oil")
         return
+    pressure = stated.limits.pressure_at(stated.limits.material[0][0])
+    yield from _standing_margin(stated, pressure, place, table)
     asked = (
         ("smallest_film", np.nanmin, "minimum_film", stated.least_film, "smallest film"),
-        (
-            "largest_pressure", np.nanmax, "maximum_pressure",
-            stated.limits.pressure_at(stated.limits.material[0][0]), "largest film pressure",
-        ),
-    )  # fmt: skip
+        ("largest_pressure", np.nanmax, "maximum_pressure", pressure, "largest film pressure"),
+    )
     for name, pick, answer, limit, what in asked:
+        if table[name].isnull().all():
+            continue
         worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
         case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
         time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        sample = at_time(series_of(folder, case, place), time)
+        sample = at_time(series_of(scene, folder, case, place), time)
         value = cache(partial(_film_value, fast_journal(stated), sample, answer))
         usual = value(1.0, 1.0)
-        if usual > 0:
-            allowed = limit / seen * usual  # motion changes a film by the same share there
-            change = ""
-            if answer == "minimum_film":
-                factor, thinner = film_factors(value, allowed)
-                if thinner > NEVER / WIDEST:
-                    change = f"{place}: {oil_told(stated, thinner)}"
-            else:
-                factor = pressure_factor(value, allowed)
-            power = power_of_load(partial(of_load, value), factor, WIDEST)
-            drawn = of_extreme(table[name], pick, factor, power)
-            models = "journal.film", answer.replace("_", " ")
-            yield Margin(
-                factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
-                power=power,
-            )  # fmt: skip
+        if not usual > 0:
+            why = f"{what} in {place} ({case}): no film at rest under its load"
+            yield Margin(math.nan, place, case, uncounted=why)
+            continue
+        allowed = limit / seen * usual  # motion changes a film by the same share there
+        change = ""
+        if answer == "minimum_film":
+            factor, thinner = film_factors(value, allowed)
+            if thinner > NEVER / WIDEST:
+                change = f"{place}: {oil_told(stated, thinner)}"
+        else:
+            factor = pressure_factor(value, allowed)
+        power = power_of_load(partial(of_load, value), factor, WIDEST)
+        drawn = of_extreme(table[name], pick, factor, power)
+        models = "journal.film", answer.replace("_", " ")
+        yield Margin(
+            factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
+            power=power,
+        )  # fmt: skip
+
+
+def _standing_margin(
+    stated: Journal, limit: float, place: str, table: xr.Dataset
+) -> Iterator[Margin]:
+    """Margin of the specific load F/(B D) of a shaft that stands, in proportion to its loads."""
+    if "standing_load" not in table or not table["standing_load"].notnull().any():
+        return
+    load = table["standing_load"]
+    worst = int(np.nanargmax(load.values))
+    area = stated.geometry.width * stated.geometry.diameter
+    factor = limit * area / float(load.values[worst])
+    yield Margin(
+        factor, place, str(table["case"].values[worst]), f"specific load at standstill in {place}",
+        drawn=of_extreme(load, np.nanmax, factor, 1.0),
+        time=float(table["standing_load_time"].values[worst]), power=1.0,
+        models=("shaft.tilt", "tilt"),  # that of the load, which both follow
+    )  # fmt: skip
 
 
 def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, oil: float) -> float:
@@ -157,7 +187,10 @@ def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, o
     under = grown(sample, load)
     force = under["force"].transpose("sample", "axis").values.astype(float)
     lying = shaft_line(options, under)
-    answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    try:
+        answer = equilibria(options, force, under["speed"].values.astype(float), **lying)
+    except SolverError:  # a shaft that is tilted by more than the bore lets it
+        return math.nan
     return float(getattr(answer, field)[0]) if answer.converged[0] else math.nan
 
 
@@ -167,7 +200,11 @@ def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, o
 def _rolling_margins(
     scene: Scene, folder: Path, place: str, tables: Tables, verdicts: Sequence[Verdict]
 ) -> Iterator[Margin]:
-    """Margins of static rating, rating life and modified life of one rolling bearing."""
+    """Margins of static rating, rating life and modified life of one rolling bearing.
+
+    The oil of the modified life is as warm as in each load case of the run; by a heat balance it
+    is warmer the larger the loads are.
+    """
     limits = scene.rolling.bearings[place].limits
     own = {v.quantity: v for v in verdicts if v.subject == f"rolling {place}"}
     table = tables["rolling"].sel(bearing=place)
@@ -194,18 +231,25 @@ def _rolling_margins(
     modified = own.get("modified rating life L10mh")
     if modified is None or not math.isfinite(modified.value):
         return
-    load, speed, weight = _spectrum(scene, folder, place, tables)
+    spectrum = _spectrum(scene, folder, place, tables)
     grease = lubrication(scene.friction)
+    warmth = warmth_of(scene, place, tables["rolling"], looked_at(folder, place))
 
-    def life(factor: float, oil: Lubrication = grease) -> float:
-        return modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
+    def life(factor: float, warmer: float = 0.0) -> float:
+        turns = damage = 0.0
+        for case, load, speed, weight in spectrum:
+            oil = replace(grease, temperature=warmth.under(case, factor) + warmer)
+            own = float((np.abs(speed) * weight).sum())
+            turns += own
+            damage += own / modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
+        return turns / damage if damage else math.inf
 
     allowed = limits.life / modified.value * life(1.0)
     factor = largest_factor(lambda f: life(f) >= allowed)
-    warmth = np.linspace(0.0, _WARMER, 13)
-    lives = [life(1.0, replace(grease, temperature=grease.temperature + w)) for w in warmth]
+    warmer = np.linspace(0.0, _WARMER, 13)
+    lives = [life(1.0, more) for more in warmer]
     short = np.flatnonzero(np.array(lives) < allowed)
-    change = f"{place}: oil {warmth[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
+    change = f"{place}: oil {warmer[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     power = -power_of_load(life, factor, WIDEST)
     damage = damage_per_hour(table, "modified_")
     case, most = _most_damage(damage, share)
@@ -242,8 +286,8 @@ def lubrication(options: Friction) -> Lubrication:
 
 def _spectrum(
     scene: Scene, folder: Path, place: str, tables: Tables
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Equivalent loads, N, speeds, rad/s, and shares of time of some samples of all cases."""
+) -> list[tuple[str, np.ndarray, np.ndarray, np.ndarray]]:
+    """Each case with equivalent loads, N, speeds, rad/s, and shares of time of some samples."""
     lifetime = tables.get("lifetime")
     parts = []
     for case, some in looked_at(folder, place):
@@ -253,9 +297,8 @@ def _spectrum(
         answer = solved(scene, place, some)
         speed = some["speed"].values.astype(float)
         weight = np.full(speed.size, share / speed.size)
-        parts.append((answer.equivalent_load, speed, weight))
-    load, speed, weight = (np.concatenate(values) for values in zip(*parts))
-    return load, speed, weight
+        parts.append((case, answer.equivalent_load, speed, weight))
+    return parts
 
 
 def solved(scene: Scene, place: str, some: xr.Dataset) -> Any:

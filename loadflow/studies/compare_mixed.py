@@ -11,7 +11,7 @@ import xarray as xr
 
 from loadflow.cube.hdf5 import read_groups
 from loadflow.quantities import HOURS_PER_YEAR, percent
-from loadflow.stages.turning import turning
+from loadflow.stages.turning import runs_throughout, turning
 from loadflow.studies.compare_numbers import Finished, error_of, lifetime_mean
 from loadflow.studies.compare_result import Number
 from loadflow.studies.seed_intervals import Groups
@@ -43,6 +43,7 @@ def mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Grou
     touching = float(table["contact_time"].sum())
     note = "" if part.any() else "no film is in contact or above E_krit while turning"
     note = f"in contact for {touching:.3g} s of all cases together" if touching else note
+    note = "; ".join(filter(None, (note, _starts(table, share))))
     number = lifetime_mean(run, part * HOURS_PER_YEAR, share, groups, "h", note)
     error = error_of(run, "journal.film", "minimum film") if "journal" in run.tables else math.nan
     if not error < 1:
@@ -53,6 +54,22 @@ def mixed_time(run: Finished, table: xr.Dataset, share: np.ndarray, groups: Grou
         return replace(number, error=apart / number.value if number.value else 0.0)
     said = f"{hours[0]:.3g} h with films thinner by {percent(error)}, their error by models"
     return replace(number, note=f"{note}; {said}")
+
+
+def _starts(table: xr.Dataset, share: np.ndarray) -> str:
+    """What a start, stop or fault takes that has no share of the year, or all of it, in words."""
+    starts = ~runs_throughout(table)
+    left = starts & (share == 0)
+    mixed = table["mixed_friction_time"].max("bearing").values
+    if (mixed * left).any():
+        dlcs = ", ".join(sorted({*table["dlc"].values[left & (mixed > 0)].tolist()}))
+        return (
+            f"without DLC {dlcs}, up to {np.max(mixed * left):.3g} s each time: "
+            "lifetime.per_year says how often"
+        )
+    if starts.all():
+        return "of a year of nothing but starts, stops and standing: add production to the loads"
+    return ""
 
 
 def _hours(run: Finished, table: xr.Dataset, share: np.ndarray, scale: float) -> float:

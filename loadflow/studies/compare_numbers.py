@@ -11,8 +11,10 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import load_cases
 from loadflow.scene.scene import Scene
-from loadflow.studies.compare_result import Number
+from loadflow.stages.turning import of_running, runs_throughout
+from loadflow.studies.compare_result import STARTS_ALONE, Number
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.verdict import Verdict
@@ -61,12 +63,23 @@ def extreme(
     scale: float,
     unit: str,
     model: str,
+    *,
+    running: bool = False,
 ) -> Number:
-    """Extreme over cases and bearings, with case, time, interval and error."""
-    values = table[name].transpose("case", "bearing").values.astype(float)
+    """Extreme over cases and bearings, with case, time, interval and error.
+
+    With `running` it is that of load cases in which the shaft runs throughout, as the verdicts on
+    films have it; the note tells how many others there are.
+    """
+    found = (of_running(table) if running else table)[name]
+    values = found.transpose("case", "bearing").values.astype(float)
     pick = np.nanmax if sense == "most" else np.nanmin
+    others = int((~runs_throughout(table)).sum()) if running else 0
     if np.isnan(values).all():
-        return Number(math.nan, unit, note="no case has a value")
+        alone = f"n/a: {STARTS_ALONE}" if others == table.sizes["case"] else "no case has a value"
+        return Number(math.nan, unit, note=alone)
+    do = "starts, stops or stands" if others == 1 else "start, stop or stand"
+    note = f"{load_cases(others)} that {do} not counted" if others else ""
     k, b = np.unravel_index(
         int(np.nanargmax(values) if sense == "most" else np.nanargmin(values)), values.shape
     )
@@ -81,6 +94,7 @@ def extreme(
     return Number(
         float(values[k, b]) * scale, unit, low * scale, high * scale, error_of(run, result, model),
         case=str(table["case"].values[k]), time=when, place=str(table["bearing"].values[b]),
+        note=note,
     )  # fmt: skip
 
 

@@ -59,14 +59,21 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
             continue
         worst = int(np.nanargmax(table[name].values == extreme(table[name].values)))
         case, time = str(table["case"].values[worst]), float(table[f"{name}_time"].values[worst])
-        samples = against_bore(series_of(folder, case, place))
+        samples = series_of(scene, folder, case, place)
         samples = samples if moving else at_time(samples, time)
         if not lies(scene, bearing, samples):
             samples = samples.drop_vars("tilt", errors="ignore")
-        known = pad_films(bearing, samples, moving, span_of(bearing)).carried
+        told = f"{what} of the {bearing.kind} bearing in {place}"
+        known, why = np.zeros(1, bool), "solved again, its film carries nowhere"
+        try:
+            known = pad_films(bearing, against_bore(samples), moving, span_of(bearing)).carried
+        except SolverError as error:
+            why = str(error)
+        if not known.any():
+            yield Margin(math.nan, place, case, uncounted=f"{told} ({case}): {why}")
+            continue
         value = cache(partial(value_of, bearing, samples, known, moving, field))
         usual, seen = value(1.0, 1.0), float(table[name].values[worst])
-        told = f"{what} of the {bearing.kind} bearing in {place}"
         allowed = limit * usual / seen  # what rungs differ by does not pass for a reserve
         if abs(usual / seen - 1.0) > _TOLD:
             told += f" (solved again {100 * (usual / seen - 1.0):+.1f} % off that of the run)"
@@ -111,7 +118,8 @@ def value_of(
     """Thinnest film or largest pressure with factors on load and viscosity; NaN without one."""
     thinner = bearing if oil == 1.0 else bearing.with_viscosity(oil)
     try:
-        found = pad_films(thinner, grown(samples, load), moving, span_of(bearing))
+        under = against_bore(grown(samples, load))
+        found = pad_films(thinner, under, moving, span_of(bearing))
     except SolverError:
         return math.nan
     return found.thinnest(counted) if field == "minimum_film" else found.highest(counted)

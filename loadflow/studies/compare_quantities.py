@@ -106,6 +106,11 @@ QUANTITIES: dict[str, Compared] = {
     "constant_coefficient_torque": Compared(
         "after a constant coefficient, on the bore", "N m", _TORQUE, "catalogues"
     ),
+    "bearing_temperature": Compared(
+        "warmest rolling bearing", "°C", _OIL, "rolling",
+        no_error="the ladder has not measured it",
+        no_band="the temperature of the oil is a tolerance itself",
+    ),
     "oil_flow": Compared("oil that leaves the film", "l/min", _OIL, "journal"),
     "pump": Compared("power to supply the oil", "kW", _OIL, "journal"),
 }  # fmt: skip

@@ -16,6 +16,8 @@ from loadflow.verdict import Verdict
 
 THRUST = "force along the shaft without a bearing"
 UNCARRIED = "thrust that no bearing carries"
+STARTS_ALONE = "all load cases of this run start, stop or stand"
+"""Why nothing is held to limits that are those of a shaft that runs."""
 
 
 @dataclass(frozen=True)

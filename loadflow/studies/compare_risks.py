@@ -17,12 +17,12 @@ from loadflow.scene.wear import check_wear
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
-from loadflow.stages.turning import SLOWEST
+from loadflow.stages.turning import SLOWEST, runs_throughout
 from loadflow.stages.wear import count_of
 from loadflow.studies.compare_factor import reduced_samples
-from loadflow.studies.compare_result import Number
+from loadflow.studies.compare_result import STARTS_ALONE, Number
 from loadflow.studies.seed_intervals import Groups, interval
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.wind.cases import stands_or_starts
 
 WORN_SHARE = 0.1
 """Of the radial clearance that may wear off; assumed."""
@@ -85,8 +85,7 @@ def events(scene: Scene, table: xr.Dataset) -> str:
     table : xarray.Dataset
         Any result over ``case``, with `dlc`.
     """
-    there = sorted({*table["dlc"].values.tolist()} & {*LOAD_CASES})
-    rubs = [dlc for dlc in there if LOAD_CASES[dlc].stands_or_starts]
+    rubs = [dlc for dlc in sorted({*table["dlc"].values.tolist()}) if stands_or_starts(dlc)]
     told = (f"{count_of(scene, dlc):,.0f} of DLC {dlc}" for dlc in rubs)
     return f"{', '.join(told)} in the life" if rubs else "no start, stop or fault in this run"
 
@@ -111,10 +110,20 @@ def _unworn(scene: Scene) -> str:
 def rolling_risks(
     scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray
 ) -> Iterator[tuple[str, Number]]:
-    """Yield smallest load, smallest viscosity ratio, and standstill of rolling bearings."""
-    groups = Groups.of(table)
-    yield "minimum_load", _lightest(scene, folder, table["case"].values.tolist(), groups)
+    """Yield smallest load, smallest viscosity ratio, and standstill of rolling bearings.
+
+    Load and κ are those of load cases in which the shaft runs throughout: any bearing that starts
+    or stops has a κ of 0 at first, which rules of running do not mean.
+    """
+    groups, runs = Groups.of(table), runs_throughout(table)
+    if not runs.any():
+        for name, unit in (("minimum_load", "%"), ("viscosity_ratio", "–")):
+            yield name, Number(math.nan, unit, note=f"n/a: {STARTS_ALONE}")
+        yield "standstill", _standing(scene, folder, table, share)
+        return
+    yield "minimum_load", _lightest(scene, folder, table, groups)
     ratio = table["bearing_viscosity_ratio"].transpose("case", "bearing").values.astype(float)
+    ratio[~runs] = math.nan
     if np.isfinite(ratio).any():
         k, b = np.unravel_index(int(np.nanargmin(ratio)), ratio.shape)
         low, high = interval(groups, lambda some: float(np.nanmin(ratio[some])))
@@ -123,10 +132,14 @@ def rolling_risks(
             float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
             case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
             place=place,
-            note="κ of what turns; its error is that of the speed, with oil as warm as stated; ISO "
-            "281 ends at 0.1, full films begin at 1",
+            note="κ of what turns; its error is that of the speed, with oil as warm as "
+            f"{_oil(scene)}; ISO 281 ends at 0.1, full films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
+
+
+def _oil(scene: Scene) -> str:
+    return "stated" if scene.friction.conductance is None else "its heat balance has it"
 
 
 def _slowest(samples: xr.Dataset) -> float:
@@ -136,11 +149,15 @@ def _slowest(samples: xr.Dataset) -> float:
     return float(samples["time"].values[np.argmin(np.where(turns, speed, np.inf))])
 
 
-def _lightest(scene: Scene, folder: Path, cases: list[str], groups: Groups) -> Number:
+def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> Number:
     """Smallest equivalent load over the capacity while the shaft turns."""
+    cases = table["case"].values.tolist()
+    judged = {case for case, runs in zip(cases, runs_throughout(table)) if runs}
     own = dict.fromkeys(cases, math.inf)  # over its limit, the least of each case
     least, light, total = (math.inf, "", "", math.nan, 0.0), 0.0, 0.0
     for place, case, some in _samples(scene, folder):
+        if case not in judged:
+            continue
         bearing = scene.rolling.geometries[place]
         turning = np.abs(some["speed"].values) >= SLOWEST
         load = _equilibrium(scene, place, some).equivalent_load / bearing.rated_capacity

@@ -12,6 +12,7 @@ import xarray as xr
 from loadflow.data import evidence
 from loadflow.quantities import CELSIUS
 from loadflow.rolling import RollerBearing, RollingBearing
+from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_factor import oil_told
 from loadflow.studies.compare_result import UNCARRIED, Judged
@@ -127,8 +128,16 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         ),
         "References behind the loads": references(["loads"]),
         "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
-        f"{scene.friction.temperature - CELSIUS:.0f} °C, {scene.friction.cleanliness}",
+        f"{_warm(scene.friction)}, {scene.friction.cleanliness}",
     }
+
+
+def _warm(options: Friction) -> str:
+    """How warm the oil of rolling bearings is, in words."""
+    if options.conductance is None:
+        return f"{options.temperature - CELSIUS:.0f} °C"
+    air = options.ambient_temperature - CELSIUS
+    return f"as warm as its heat balance has it, {options.conductance:g} W/K to {air:.0f} °C"
 
 
 def _beams(scene: Scene) -> dict[str, str]:

@@ -15,7 +15,7 @@ from loadflow.scene.design import Crowning
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.frames import to_film
-from loadflow.studies.load_spectrum import SLOWEST
+from loadflow.studies.load_spectrum import STANDING_SHARE
 
 _OFF_STREAM = "no sample of its spectrum turns"
 _SCALES = {"minimum_film": (1e6, "µm"), "maximum_pressure": (1e-6, "MPa")}
@@ -104,7 +104,7 @@ def crowns_of(
     for place in journal.bearings:
         options, samples = journal.at(place), spectrum[place]
         speed = samples["speed"].values.astype(float)
-        fast = np.abs(speed) > SLOWEST * np.abs(speed).max(initial=0.0)
+        fast = np.abs(speed) > STANDING_SHARE * np.abs(speed).max(initial=0.0)
         some = np.flatnonzero(fast & samples["running"].values.astype(bool))
         if some.size == 0:
             raise InputError(f"design.crown: {place}: {_OFF_STREAM}")

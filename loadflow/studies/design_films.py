@@ -9,13 +9,17 @@ import xarray as xr
 
 from loadflow.scene.journal import Journal
 from loadflow.stages.design_samples import Governed, closed_samples, stationary_samples
-from loadflow.stages.film_summary import extremes
+from loadflow.stages.film_summary import extremes, judged
 from loadflow.stages.journal import driven
+from loadflow.stages.turning import turning
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.design_loads import PeriodicPart
 
 HEADS = ("case", "bearing", "load", "E", "h_min, µm", "p_max, MPa", "P_f, kW")
 """Of a table of films: under each stationary load, or largest in the orbit with its mean loss."""
+
+NUMBERS = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
+"""What a film is told by."""
 
 
 def stationary_films(series: BearingSeries, journal: Journal) -> list[dict[str, Any]]:
@@ -28,9 +32,14 @@ def stationary_films(series: BearingSeries, journal: Journal) -> list[dict[str, 
     """
     loads = stationary_samples(_governed(series))
     film = driven(journal, series.bearing, loads)
+    turns = turning(film.drop_vars("time"))  # each by itself: these follow no course
+    numbers = {name: judged(film, name, turns) for name in NUMBERS}
+    missed = ~(film["converged"].astype(bool) | film["in_contact"].astype(bool)).values
     return [
-        _row(series, str(loads["load_name"].values[k]), film.isel(sample=[k]))
-        for k in range(loads.sizes["sample"])
+        {"case": series.case, "bearing": series.bearing, "load": str(name)}
+        | {of: float(values[k]) for of, values in numbers.items()}
+        | {"not_converged": int(missed[k])}
+        for k, name in enumerate(loads["load_name"].values)
     ]
 
 
@@ -44,8 +53,18 @@ def periodic_film(part: PeriodicPart, journal: Journal) -> dict[str, Any]:
     """
     loads = closed_samples(_governed(part.series), part.load, part.bounds)
     film = driven(journal, part.series.bearing, loads)
-    told = {name: float(film.attrs[name]) for name in ("closure", "periods")}
-    return _row(part.series, "closed orbit", film) | told
+    found = extremes(film.assign(weight=xr.ones_like(film["weight"])))
+    return {
+        "case": part.series.case,
+        "bearing": part.series.bearing,
+        "load": "closed orbit",
+        "eccentricity_ratio": float(found["largest_eccentricity_ratio"]),
+        "minimum_film": float(found["smallest_film"]),
+        "maximum_pressure": float(found["largest_pressure"]),
+        "friction_power": float(found["mean_friction_power"]),
+        "not_converged": int(found["not_converged"]),
+        **{name: float(film.attrs[name]) for name in ("closure", "periods")},
+    }
 
 
 def as_row(film: dict[str, Any]) -> list[str]:
@@ -58,20 +77,6 @@ def as_row(film: dict[str, Any]) -> list[str]:
     )
     numbers = [f"{scale * value:.4g}" if np.isfinite(value) else "-" for value, scale in shown]
     return [film["case"], film["bearing"], film["load"], *numbers]
-
-
-def _row(series: BearingSeries, name: str, film: xr.Dataset) -> dict[str, Any]:
-    found = extremes(film.assign(weight=xr.ones_like(film["weight"])))
-    return {
-        "case": series.case,
-        "bearing": series.bearing,
-        "load": name,
-        "eccentricity_ratio": float(found["largest_eccentricity_ratio"]),
-        "minimum_film": float(found["smallest_film"]),
-        "maximum_pressure": float(found["largest_pressure"]),
-        "friction_power": float(found["mean_friction_power"]),
-        "not_converged": int(found["not_converged"]),
-    }
 
 
 def _governed(series: BearingSeries) -> Governed:

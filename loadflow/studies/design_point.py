@@ -23,7 +23,7 @@ from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
-from loadflow.studies.grown_films import FACTORS, GrownFilms, fast_journal
+from loadflow.studies.grown_films import FACTORS, GrownFilms, fast_journal, pressed
 from loadflow.studies.shaft_through import BentShaft
 
 _CONDITION = "smallest ratio of what else is allowed to what is found, 1 at the limit"
@@ -208,7 +208,7 @@ def _add_film(
             thin, "minimum_film", options.least_film, falls=True
         )
         sums.extreme("minimum_film", float(film_of[thin]))
-    pressure = np.where(answer.converged, answer.maximum_pressure, 0.0)
+    pressure = pressed(options, samples.isel(sample=asked), answer)
     hardest = int(asked[np.argmax(pressure)])
     allowed = _allowed_pressure(options, answer, int(np.argmax(pressure)))
     sums.margins[f"largest film pressure in {place}"] = film.crossing(

@@ -19,7 +19,6 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
 from loadflow.scene.tolerances import ALIGNMENT, Toleranced
-from loadflow.stages.bores import against_bore
 from loadflow.stages.comparisons import THINNING
 from loadflow.stages.rolling_at_work import as_stated, rest
 from loadflow.studies.pad_films import span_of
@@ -313,7 +312,8 @@ def _askew(built: Built, way: tuple[float, float], lying: bool) -> Built:
 def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
     """The spectrum with a tilt (y, z) added to that of the shaft, or alone.
 
-    `pad_tilt` is that of collars, which may follow the shaft where the bores do not.
+    `pad_tilt` and `pad_alignment` are those of collars, which may follow the shaft where the bores
+    do not. The angle is one of their bore, as it does not grow with the loads.
     """
     assert built.candidate.journal is not None
     groups = {}
@@ -323,16 +323,17 @@ def _tilted(built: Built, way: tuple[float, float], lying: bool) -> xr.DataTree:
         tilt, bend = (samples[name] if lying else none for name in ("tilt", "curvature"))
         extra = xr.DataArray([0.0, *way], dims="axis")
         thrust = built.candidate.thrust
-        held = (
-            against_bore(samples)["tilt"] if thrust and thrust.tilt and "tilt" in samples else none
-        )
-        bore = xr.zeros_like(extra)  # of a bore that follows the shaft as it lies without the angle
-        if lying and "alignment" in samples:
-            bore = samples["alignment"]
+        follows = bool(thrust and thrust.tilt and "tilt" in samples)
+        # of a bore that follows the shaft as it lies without the angle
+        bore = samples.get("alignment", xr.zeros_like(extra))
         groups[place] = samples.assign(
-            tilt=tilt + extra, curvature=bend, alignment=bore, pad_tilt=held + extra
+            tilt=tilt + extra,
+            curvature=bend,
+            alignment=bore if lying else xr.zeros_like(extra),
+            pad_tilt=samples["tilt"] if follows else none,
+            pad_alignment=(bore if follows else 0.0) - extra,
         )
-    return _tree(built.spectrum, groups)
+    return with_places(built.spectrum, groups)
 
 
 def _pushed(built: Built, rolling: Rolling, way: tuple[float, float]) -> xr.DataTree:
@@ -351,11 +352,12 @@ def _pushed(built: Built, rolling: Rolling, way: tuple[float, float]) -> xr.Data
         extra = np.zeros_like(moment)
         extra[:, 1:] = np.linalg.pinv(free) @ np.array(way)
         groups[place] = samples.assign(moment=(("sample", "axis"), moment + extra))
-    return _tree(built.spectrum, groups)
+    return with_places(built.spectrum, groups)
 
 
-def _tree(spectrum: xr.DataTree, groups: dict[str, xr.Dataset]) -> xr.DataTree:
+def with_places(spectrum: xr.DataTree, groups: Mapping[str, xr.Dataset]) -> xr.DataTree:
+    """A spectrum with other samples of some places."""
     rest_of = {name: node.to_dataset() for name, node in spectrum.children.items()}
-    tree = xr.DataTree.from_dict(rest_of | groups)
+    tree = xr.DataTree.from_dict(rest_of | dict(groups))
     tree.attrs.update(spectrum.attrs)
     return tree

@@ -32,6 +32,19 @@ def fast_journal(options: Journal) -> Journal:
     return still.model_copy(update={"rung": "grid", "grid": (around, across)})
 
 
+def pressed(options: Journal, samples: xr.Dataset, answer: Any) -> np.ndarray:
+    """Largest film pressure of samples of a spectrum, Pa; 0 where it is none to judge.
+
+    Where the shaft starts, stops or stands, a film without asperities has one up to E_krit, as in
+    the summary of a run.
+    """
+    counts = answer.converged
+    if options.contact is None:
+        floats = answer.eccentricity_ratio <= options.critical_eccentricity_ratio
+        counts = counts & (samples["running"].values.astype(bool) | floats)
+    return np.where(counts, answer.maximum_pressure, 0.0)
+
+
 class GrownFilms:
     """Films at rest of a bearing under the samples of a spectrum, and under more load and less.
 

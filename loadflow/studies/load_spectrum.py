@@ -19,14 +19,14 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import moment_governs
 from loadflow.studies.run_lifetime import case_shares, energy_per_year
-from loadflow.wind.cases import LOAD_CASES, factor_of_maximum
+from loadflow.wind.cases import LOAD_CASES, factor_of_maximum, stands_or_starts
 
 Floats = NDArray[np.float64]
 
 HARDEST = 6
 """Samples that are kept for each way in which a load can be hard."""
 
-SLOWEST = 0.05
+STANDING_SHARE = 0.05
 """Speed, over the fastest, below which a shaft counts as standing."""
 
 VARIABLES = {
@@ -119,7 +119,7 @@ def _of_place(
         for name in set.intersection(*map(set, parts))
     }
     number = np.concatenate([np.full(part["speed"].size, k) for k, part in enumerate(parts)])
-    turning = np.abs(whole["speed"]) > SLOWEST * np.abs(whole["speed"]).max(initial=0.0)
+    turning = np.abs(whole["speed"]) > STANDING_SHARE * np.abs(whole["speed"]).max(initial=0.0)
     by_moment = moment_governs(scene, place, whole["moment"])
     load = np.hypot(*to_film(whole["moment" if by_moment else "force"]).T)
     index, weight = _classed(np.abs(whole["speed"]), load, whole["weight"], turning, classes)
@@ -160,7 +160,7 @@ def _series(loads: xr.Dataset, shaft: xr.Dataset, share: float) -> dict[str, Any
     alike: Mapping[str, Any] = {
         "weight": share / speed.size,
         "load_factor": factor_of_maximum(dlc),
-        "running": row is None or not row.stands_or_starts,
+        "running": not stands_or_starts(dlc),
         "ultimate": row is None or row.kind == "U",
     }
     found = {name: np.full(speed.size, value) for name, value in alike.items()}

@@ -16,8 +16,9 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
-from loadflow.stages.bores import against_bore
+from loadflow.stages.bores import against_bore, follow_the_shaft, following
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
@@ -37,8 +38,8 @@ from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
 from loadflow.studies.design_point import judge_design
-from loadflow.studies.deviations import Built, Tolerance, tolerances_of
-from loadflow.studies.load_spectrum import SLOWEST
+from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
+from loadflow.studies.load_spectrum import STANDING_SHARE
 from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
 from loadflow.studies.wear_bands import rubbing_of
 
@@ -78,7 +79,7 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
         Its `change` names tolerances that break a limit by themselves.
     """
     rubs = rubbing_of(run.scene, run.folder, one.numbers["wear"])
-    built = Built(_bearings(run), run.scene.friction, spectrum, rubs)
+    built = Built(_bearings(run), run.scene.friction, _in_bores(run.scene, spectrum), rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -97,6 +98,12 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
     told = f"tolerance of {', '.join(breaking)} alone" if breaking else ""
     change = "; ".join(part for part in (one.change, told) if part)
     return replace(one, numbers=numbers, change=change)
+
+
+def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:
+    """The spectrum with the `alignment` of the bores that follow the shaft, in its mean."""
+    places = (place for place in follow_the_shaft(scene) if place in spectrum.children)
+    return with_places(spectrum, {p: following(spectrum[p].to_dataset()) for p in places})
 
 
 def _bearings(run: Finished) -> Candidate:
@@ -286,7 +293,7 @@ def _of_pads(
     for place, bearing in thrust.bearings.items():
         samples = _samples_of_pads(thrust, bearing, spectrum[place].to_dataset())
         span = spans.get(place)
-        answer = pad_films(bearing, samples, span=span)
+        answer = pad_films(bearing, against_bore(samples), span=span)
         weight = samples["weight"].values * np.isfinite(answer.friction_power)
         power += float(spectrum[place]["weight"].sum()) * (
             _mean(answer.friction_power, weight) / max(weight.sum(), 1e-300)
@@ -314,13 +321,13 @@ def _of_pads(
 
 
 def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> xr.Dataset:
-    """Those of a spectrum in which a bearing of pads turns, tilted as the shaft is in them.
+    """Those of a spectrum in which a bearing of pads turns, with tilt of shaft and bore in them.
 
     Of one without tables they are few: spread over the loads that last, and the hardest.
     """
     speed = np.abs(samples["speed"].values)
     running = samples["running"].values.astype(bool)
-    turning = np.flatnonzero(running & (speed > SLOWEST * speed.max(initial=0.0)))
+    turning = np.flatnonzero(running & (speed > STANDING_SHARE * speed.max(initial=0.0)))
     if not tabulated(bearing):
         force, moment = (
             to_rolling(samples[name].transpose("sample", "axis").values)
@@ -331,23 +338,28 @@ def _samples_of_pads(thrust: Thrust, bearing: AnyAxial, samples: xr.Dataset) -> 
         order = turning[lasting][np.argsort(pressed[lasting])]
         spread = order[np.linspace(0, order.size - 1, PADS).astype(int)]
         turning = np.unique([*spread, turning[np.argmax(pressed)]])
-    held = against_bore(samples)
-    tilt = samples.get("pad_tilt", held.get("tilt") if thrust.tilt else None)
-    some = samples.drop_vars(("tilt", "pad_tilt"), errors="ignore")
-    if tilt is not None and bearing.kind == "thrust" and not bearing.self_aligning:
-        some = some.assign(tilt=tilt)
+    askew = "pad_tilt" in samples
+    lines = {name: samples[f"pad_{name}" if askew else name]
+             for name in ("tilt", "alignment") if askew or name in samples}  # fmt: skip
+    some = samples.drop_vars(("tilt", "alignment"), errors="ignore")
+    if (askew or thrust.tilt) and bearing.kind == "thrust" and not bearing.self_aligning:
+        some = some.assign(lines)
     return some.isel(sample=turning)
 
 
 def _margins_of_pads(
     bearing: AnyAxial, some: xr.Dataset, answer: PadFilms, span: tuple[float, float] | None
 ) -> list[float]:
-    """Factors on the load to the limits of film and pressure; 0 where a film is missing."""
+    """Factors on the load to the limits of film and pressure; 0 where a film is missing.
+
+    How bores are turned, and by how much they are misaligned, does not grow with the load.
+    """
     if not answer.carried.all():
         return [0.0]
     film, pressure = answer.minimum_film, answer.maximum_pressure
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
-    heavier = pad_films(bearing, grown(some.isel(sample=[thin, hard]), HEAVIER), span=span)
+    under = against_bore(grown(some.isel(sample=[thin, hard]), HEAVIER))
+    heavier = pad_films(bearing, under, span=span)
     limits = bearing.limits
     allowed = limits.pressure_at(limits.material[0][0])
     return load_margins(

@@ -19,6 +19,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
+from loadflow.stages.turning import runs_throughout
 from loadflow.studies.uncarried import SLIGHT, has_collar, uncarried
 from loadflow.verdict import Verdict
 from loadflow.wind.cases import LOAD_CASES
@@ -99,11 +100,6 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
         yield thrust
 
 
-def _starts_or_stands(dlc: str) -> bool:
-    """Whether the shaft stands, starts or stops in a load case, so that it must touch the shell."""
-    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
-
-
 def _answered(subject: str, table: xr.Dataset) -> Verdict:
     """No sample may lack an answer, as it would be missing in the extremes."""
     count = table["not_converged"]
@@ -136,8 +132,7 @@ def _in_contact(
 
 def _production(table: xr.Dataset, produces: bool = True) -> xr.Dataset:
     """The load cases of power production, or those in which the shaft stands, starts or stops."""
-    standing = np.array([_starts_or_stands(dlc) for dlc in table["dlc"].values.tolist()])
-    return table.isel(case=standing != produces)
+    return table.isel(case=runs_throughout(table) == produces)
 
 
 def _contact(
@@ -414,14 +409,20 @@ def _lives(
                 value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
         if kind:
             friction = scene.friction
-            warm = f"{friction.temperature - CELSIUS:.0f} °C"
-            note += f"; {friction.lubricant}, {warm}, {friction.cleanliness}"
+            note += f"; {friction.lubricant}, {_oil(table)}, {friction.cleanliness}"
             if (thin := float(table["bearing_thin_share"].max())) > 0:
                 note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
         yield Verdict(
             subject, what, value, limit, "at least", "h", source, note=note,
             key="rolling.limits.life",
         )  # fmt: skip
+
+
+def _oil(table: xr.Dataset) -> str:
+    """Temperatures of rolling bearings over the load cases."""
+    warm = table["bearing_temperature"].values - CELSIUS
+    low, high = f"{warm.min():.0f}", f"{warm.max():.0f}"
+    return f"{low} °C" if low == high else f"{low} … {high} °C by their heat balance"
 
 
 # --- both -------------------------------------------------------------------------------------

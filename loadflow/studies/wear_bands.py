@@ -109,7 +109,9 @@ def with_error(run: Finished, wear: Number) -> Number:
         options = run.scene.journal.at(rubs.place)
         contact = options.contact and options.contact.as_rough(1.0 + film)
         rougher = options.model_copy(update={"contact": contact})
-        more = max(rubs.energy(rougher) / rubs.energy(options), 1.0)
+        rubbed = rubs.energy(options)
+        if rubbed > 0:
+            more = max(rubs.energy(rougher) / rubbed, 1.0)
     told = f"× {more:.3g} by the error of the films" if more >= 1 else "error of films not counted"
     said = f"coefficients differ by up to {BATCHES:g} from batch to batch, {told}"
     error = BATCHES * (more if more >= 1 else 1.0) - 1.0

@@ -173,6 +173,11 @@ def factor_of_maximum(dlc: str) -> float:
     return LOAD_CASES[dlc].factor_of_maximum if dlc in LOAD_CASES else 1.0
 
 
+def stands_or_starts(dlc: str) -> bool:
+    """Whether the shaft stands, starts or stops in a load case; not in one that the table lacks."""
+    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
+
+
 def load_case(dlc: str) -> LoadCase:
     """Row of the table; raises `InputError` if there is none of that number.
 

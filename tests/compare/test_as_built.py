@@ -15,11 +15,11 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
 from loadflow.studies import wear_bands
 from loadflow.studies.band_films import deciding_of, films_of
-from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_margins import _film_value, lubrication
 from loadflow.studies.compare_result import Number
-from loadflow.studies.deviations import Built, tolerances_of
+from loadflow.studies.deviations import Built, tolerances_of, with_places
 from loadflow.studies.grown_films import fast_journal
-from loadflow.studies.tolerance_bands import Known, _as_share, _banded, cheap_numbers
+from loadflow.studies.tolerance_bands import Known, _as_share, _banded, _in_bores, cheap_numbers
 from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
@@ -182,6 +182,34 @@ def test_a_shaft_that_lies_askew_thins_the_film_and_0_leaves_it():
     assert stated == pytest.approx(cheap_numbers(journal())["minimum_film"], rel=0.02)
 
 
+def test_bands_of_bores_that_follow_the_shaft_know_how_they_are_turned():
+    """A shaft that is always tilted alike lies straight in them."""
+    data = {"bearings": ["N", "N2"], "geometry": MEASURES, "lubricant": {"viscosity": 0.3}}
+    data |= {"tilt": True, "alignment": "mean"}
+    scene = make_scene({"name": "t", "shaft": {"two_point": {}}, "journal": data})
+    lying = spectrum(["N", "N2"])
+    for place, tilt in (("N", 1e-4), ("N2", -5e-5)):
+        none = xr.zeros_like(lying[place].to_dataset()["force"])
+        turned = none + xr.DataArray([0.0, tilt, tilt], dims="axis")
+        lying = with_places(lying, {place: lying[place].to_dataset().assign(
+            tilt=turned, curvature=none)})  # fmt: skip
+    stated = journal(tilt=True, alignment="mean")
+    followed = cheap_numbers(replace(stated, spectrum=_in_bores(scene, lying)))
+    straight = cheap_numbers(replace(journal(tilt=False), spectrum=lying))
+    for name in ("minimum_film", "film_pressure"):
+        assert followed[name] == pytest.approx(straight[name], rel=1e-3)
+
+
+def test_a_shaft_that_is_tilted_by_more_than_its_bore_lets_it_has_no_film():
+    options = fast_journal(journal(tilt=True).candidate.journal.at("N"))
+    sample = spectrum(["N"])["N"].to_dataset().isel(sample=[0])
+    along = xr.DataArray([0.0, 1e-3, 0.0], dims="axis")
+    none = xr.zeros_like(sample["force"])
+    sample = sample.assign(tilt=none + along, curvature=none)
+    assert math.isnan(_film_value(options, sample, "minimum_film", 2.0, 1.0))
+    assert _film_value(options, sample, "minimum_film", 0.2, 1.0) > 0
+
+
 def starting():
     """A bearing whose start rubs: 2 s up to 0.02 rad/s, its asperities known."""
     rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
@@ -225,6 +253,10 @@ def test_wear_has_the_error_of_its_coefficient_and_of_the_films_that_it_begins_i
     some, more = (told(**{"minimum film": error}).error for error in (0.1, 0.3))
     assert BATCHES - 1 < some < more
     assert with_error(None, replace(worn, value=0.0)).value == 0
+    monkeypatch.setattr(Rubbing, "energy", lambda self, options: 0.0)
+    nothing = told(**{"minimum film": 0.1})
+    assert nothing.error == BATCHES - 1
+    assert "error of films not counted" in nothing.note
 
 
 def test_a_band_ends_where_a_quantity_cannot_go_on():

@@ -44,7 +44,7 @@ from loadflow.stages.turning import SLOWEST
 from loadflow.studies.compare import in_wide_bore
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_numbers import of_one_seed
+from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import (
@@ -173,7 +173,10 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     journal = by_name(found)["journal-cylindrical"].numbers
     assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
     page = found.page.read_text(encoding="utf-8")
-    assert re.search(r"<small>– by (seeds|models|tolerances): [^<]+</small>", page)
+    asked = re.findall(r"– by (?:seeds|models|tolerances) <a href=\"#(why-\d+)\" title=", page)
+    told = re.findall(r"<li id=\"(why-\d+)\">[^<]+</li>", page)
+    assert {*asked} == {*told}
+    assert len(told) == len({*told}) < len(asked)  # each reason once
 
 
 def test_rolling_bearings_are_asked_for_as_much_accuracy_as_where_nothing_is_said(cube):
@@ -245,6 +248,61 @@ def test_the_load_factor_of_a_film_is_where_its_limit_is(found):
     assert factor.holds == one.holds
     assert factor.place in ("N", "N2")
     assert one.governs.endswith(factor.place)
+
+
+def _of_the_journal(found):
+    folder = found.path / by_name(found)["journal-cylindrical"].folder
+    result = open_cube(folder / "result.h5")
+    return read_scene(folder / "scene.toml"), folder, result["journal"].to_dataset().load()
+
+
+def _one_more(table, dlc, **values):
+    """The films of a run and those of one case more, like its first."""
+    like = table.isel(case=[0])
+    more = like.assign({name: xr.full_like(like[name], value) for name, value in values.items()})
+    more = more.assign_coords(case=[f"dlc{dlc}_more"], dlc=("case", [dlc]))
+    return xr.concat([table, more], "case")
+
+
+def test_a_start_stands_in_contact_and_is_no_margin_of_films_and_production_in_contact_is_0(found):
+    scene, folder, table = _of_the_journal(found)
+    alone = margin_of(scene, folder, {"journal": table}, [])
+    touching = {"in_contact": 50, "smallest_film": 1e-7, "largest_pressure": np.nan}
+    start = margin_of(scene, folder, {"journal": _one_more(table, "3.1", **touching)}, [])
+    assert (start.factor, start.case, start.governs) == (alone.factor, alone.case, alone.governs)
+    rubs = margin_of(scene, folder, {"journal": _one_more(table, "1.3", **touching)}, [])
+    assert (rubs.factor, rubs.case) == (0.0, "dlc1.3_more")
+
+
+def test_what_a_standing_shaft_weighs_on_its_bearings_is_a_margin_in_proportion(found):
+    scene, folder, table = _of_the_journal(found)
+    bores = {place: scene.journal.at(place).geometry for place in ("N", "N2")}
+    areas = {place: bore.width * bore.diameter for place, bore in bores.items()}
+    place = min(areas, key=lambda one: areas[one])
+    nearer = 0.9 * margin_of(scene, folder, {"journal": table}, []).factor
+    heavy = 7e6 / nearer * areas[place]  # 7 MPa: limit of the material
+    times = {"standing_load": heavy, "standing_load_time": 3.0, "largest_pressure": np.nan}
+    margin = margin_of(scene, folder, {"journal": _one_more(table, "6.1", **times)}, [])
+    assert margin.factor == pytest.approx(nearer)
+    assert (margin.case, margin.time) == ("dlc6.1_more", 3.0)
+    assert margin.governs == f"specific load at standstill in {place}"
+
+
+def test_a_smallest_film_is_that_of_a_shaft_that_runs_and_says_what_it_leaves_out(found):
+    scene, folder, table = _of_the_journal(found)
+    start = _one_more(table, "3.1", smallest_film=1e-7, largest_eccentricity_ratio=0.999)
+
+    def film(films):
+        run = Finished("a", "", "", scene, {"journal": films}, {}, folder)
+        at = Groups.of(films), "smallest_film", "least", 1e6, "µm", "minimum film"
+        return extreme(run, films, *at, running=True)
+
+    assert film(start).value == film(table).value > 1.0
+    assert film(table).note == ""
+    assert film(start).note == "1 load case that starts, stops or stands not counted"
+    alone = film(start.isel(case=[-1]))
+    assert math.isnan(alone.value)
+    assert alone.note.startswith("n/a: all load cases of this run start")
 
 
 def test_a_margin_of_a_life_names_the_load_case_that_takes_most_of_it(found):
@@ -711,7 +769,8 @@ def test_losses_without_slip_are_near_those_with_every_roller_followed(cube, fou
     ).model_copy(update={"results": ["rolling.loads", "rolling.friction"]})
     run = lf.run(base, out=tmp_path, report=False)
     theirs = run.tree["friction"]["mean_friction_power"].sel(bearing="M").mean().item()
-    ours = rolling_losses(base, run.path).power.sel(bearing="M").mean().item()
+    rolling = run.tree["rolling"].to_dataset()
+    ours = rolling_losses(base, run.path, rolling).power.sel(bearing="M").mean().item()
     assert ours == pytest.approx(theirs, rel=0.33)
 
 

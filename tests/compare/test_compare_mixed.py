@@ -32,7 +32,7 @@ def series(ratio):
     return xr.Dataset({k: ("sample", v) for k, v in data.items()}, attrs=about)
 
 
-def run(folder: Path, error, *cases):
+def run(folder: Path, error, *cases, dlcs=None, share=None):
     tables = []
     (folder / "journal").mkdir()
     for k, one in enumerate(cases):
@@ -40,11 +40,11 @@ def run(folder: Path, error, *cases):
         tables.append(mixed_friction(one).expand_dims(bearing=["N"]))
     table = xr.concat(tables, "case").assign_coords(
         case=[f"c{k}" for k in range(len(cases))], wind_speed=("case", [8.0] * len(cases)),
-        dlc=("case", ["1.1"] * len(cases)), seed=("case", [*range(len(cases))]),
+        dlc=("case", dlcs or ["1.1"] * len(cases)), seed=("case", [*range(len(cases))]),
     )  # fmt: skip
     manifest = {"expected_errors": {"journal.film": {"minimum film": error}}}
     one = Finished("a", "", "", SCENE, {"journal": table}, manifest, folder)
-    share = np.full(len(cases), 1 / len(cases))
+    share = np.full(len(cases), 1 / len(cases)) if share is None else np.array(share)
     return mixed_time(one, table, share, Groups.of(table))
 
 
@@ -69,3 +69,16 @@ def test_a_time_of_0_that_does_not_stay_0_says_what_it_becomes(tmp_path):
 
 def test_where_films_have_no_error_the_time_has_none(tmp_path):
     assert np.isnan(run(tmp_path, None, series(LIMIT / 2)).error)
+
+
+def test_starts_without_a_share_are_told_with_what_gives_them_one(tmp_path):
+    runs, starts = series(LIMIT / 2), series([1.0] * 10 + [0.5] * 91)
+    found = run(tmp_path, None, runs, starts, dlcs=["1.1", "3.1"], share=[1.0, 0.0])
+    assert found.value == 0.0
+    said = "without DLC 3.1, up to 10 s each time: lifetime.per_year says how often"
+    assert said in found.note
+
+
+def test_a_year_of_nothing_but_starts_says_that_it_is_one(tmp_path):
+    found = run(tmp_path, None, series([1.0] * 10 + [0.5] * 91), dlcs=["3.1"])
+    assert "nothing but starts" in found.note

@@ -1,22 +1,35 @@
 """How far loads on thrust collars may grow, and their bands: warm, tilted and in motion."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from loadflow.errors import SolverError
 from loadflow.journal import row_table
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
+from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
+from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import solved
-from loadflow.studies.compare_factor import WIDEST, film_factors, grown, pressure_factor
-from loadflow.studies.compare_pads import value_of
-from loadflow.studies.deviations import Built, tolerances_of
-from loadflow.studies.pad_films import pad_films
-from loadflow.studies.tolerance_bands import cheap_numbers
+from loadflow.studies import compare_factor, compare_margins, compare_pads
+from loadflow.studies.compare import _governed
+from loadflow.studies.compare_factor import (
+    WIDEST,
+    Margin,
+    film_factors,
+    grown,
+    pressure_factor,
+)
+from loadflow.studies.compare_margins import margin_of
+from loadflow.studies.compare_pads import pad_margins, value_of
+from loadflow.studies.deviations import Built, _tilted, tolerances_of
+from loadflow.studies.pad_films import PadFilms, pad_films
+from loadflow.studies.tolerance_bands import _samples_of_pads, cheap_numbers
 
 LANDS = {"pads": 6, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.9, "taper": 1e-4}
 
@@ -75,6 +88,41 @@ def test_the_tilt_of_a_shaft_grows_with_its_loads():
     assert both["force"].values == pytest.approx(2.0 * series()["force"].values)
 
 
+@pytest.mark.parametrize("moving", [True, False])
+def test_bores_do_not_turn_further_under_more_load(moving):
+    """A shaft of 60 µrad in a bore of 50 has 10 of them, and 70 under twice the load."""
+    bearing, along = collar().bearings["N2"], xr.DataArray([0.0, 1e-6, 0.0], dims="axis")
+    plain = series(6).drop_vars("tilt")
+    tilted = plain.assign(tilt=xr.zeros_like(plain["force"]) + 60.0 * along)
+    every = np.ones(6, bool)
+
+    def film(samples, load):
+        return value_of(bearing, samples, every, moving, "minimum_film", load, 1.0)
+
+    found = film(tilted.assign(alignment=50.0 * along), 2.0)
+    assert found == pytest.approx(film(tilted.assign(tilt=tilted["tilt"] * 35.0 / 60.0), 2.0))
+    assert found < 0.99 * film(tilted.assign(tilt=tilted["tilt"] * 10.0 / 60.0), 2.0)
+
+
+def test_an_angle_of_a_tolerance_does_not_grow_with_the_load():
+    """Of a collar beside journal bearings, whether or not these know how the shaft lies."""
+    own = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
+    oil = {"viscosity": 0.3}
+    samples = series(3).assign(curvature=xr.zeros_like(series(3)["force"]))
+    bore = xr.DataArray([0.0, 5e-6, 0.0], dims="axis", coords={"axis": ["x", "y", "z"]})
+    for lying in (True, False):
+        films = Journal(bearings=["N2"], geometry=own, lubricant=oil, tilt=lying)
+        tree = xr.DataTree.from_dict({"N2": samples.assign(alignment=bore)})
+        candidate = Candidate(journal=films, thrust=collar())
+        stated = Built(candidate, Friction(), tree, spans={"N2": None})
+        askew = _tilted(stated, (3e-5, 0.0), lying)["N2"].to_dataset()
+        pads = _samples_of_pads(candidate.thrust, candidate.thrust.bearings["N2"], askew)
+        for load in (1.0, 2.0):
+            found = against_bore(grown(pads, load))["tilt"].transpose("sample", "axis").values
+            wanted = load * samples["tilt"].values + [0.0, 2.5e-5, 0.0]
+            assert found == pytest.approx(wanted)
+
+
 def test_a_film_that_is_lost_under_more_load_counts_as_none():
     """Samples without an answer, such as those of a collar that tilts into its pads."""
     bearing, samples = collar().bearings["N2"], series()
@@ -106,6 +154,78 @@ def test_a_factor_ends_where_films_end():
     found = pressure_factor(lambda f, oil: f if f < 1.7 else math.nan, 7.0)
     assert 1.695 < found < 1.7
     assert film_factors(lambda f, oil: math.nan, 1.0)[0] == pytest.approx(1 / WIDEST)
+
+
+CURVED = {
+    "bends": lambda load: 0.5 + 0.5 * load**3,
+    "long flat, then steep": lambda load: load**0.05 * (1.0 + (load / 6.0) ** 10),
+    "exponential": lambda load: math.exp(load - 1.0),
+    "hardly falls": lambda load: load**1e-4,
+    "falls at first": lambda load: load**0.2 * math.exp(-0.1 * math.sin(3.0 * math.log(load))),
+    "ends": lambda load: load if load < 3.3 else math.nan,
+    "fades": lambda load: 1.0 / (1.0 - (load / 4.0) ** 0.7) if load < 4.0 else math.inf,
+}
+
+
+@pytest.mark.parametrize("pressure", CURVED.values(), ids=CURVED)
+@pytest.mark.parametrize("reserve", [0.6, 1.0, 1.00005, 1.3, 5.0])
+def test_a_factor_takes_few_solutions_however_its_pressure_bends(pressure, reserve):
+    asked = []
+
+    def value(load, oil):
+        asked.append(load)
+        return pressure(load)
+
+    factor = pressure_factor(value, reserve)
+    assert len(asked) <= 16
+    assert factor == 1 / WIDEST or pressure(factor) <= reserve
+    assert factor == WIDEST or not pressure(1.0021 * factor) < reserve
+
+
+def test_a_factor_that_is_not_found_is_an_error(monkeypatch):
+    monkeypatch.setattr(compare_factor, "_STEPS", 1)
+    with pytest.raises(SolverError, match="no factor"):
+        pressure_factor(lambda load, oil: math.exp(load - 1.0), 5.0)
+
+
+def margins_of_lost_films(monkeypatch, films):
+    """Of a run whose smallest films are solved again."""
+    scene = SimpleNamespace(thrust=collar())
+    columns = {"in_contact": 0.0, "smallest_film": 3e-5, "largest_pressure": 2e6}
+    columns |= {"smallest_film_time": 1.0, "largest_pressure_time": 1.0}
+    table = xr.Dataset({name: ("case", [x]) for name, x in columns.items()}, {"case": ["gust"]})
+    monkeypatch.setattr(compare_pads, "series_of", lambda *about: series())
+    monkeypatch.setattr(compare_pads, "pad_films", films)
+    return [*pad_margins(scene, None, "N2", table)]
+
+
+def test_films_that_carry_nowhere_when_they_are_solved_again_have_no_margin(monkeypatch):
+    none = np.full(40, np.nan)
+    lost = PadFilms(none, none, none, np.ones(40, bool))
+    found = margins_of_lost_films(monkeypatch, lambda *about: lost)
+    assert [math.isnan(one.factor) for one in found] == [True, True]
+    assert all("in N2 (gust): solved again, its film carries" in one.uncounted for one in found)
+
+
+def test_films_that_cannot_be_solved_again_have_no_margin_and_a_reason(monkeypatch):
+    def stops(*about):
+        raise SolverError("the path stops")
+
+    found = margins_of_lost_films(monkeypatch, stops)
+    assert [one.uncounted.endswith("(gust): the path stops") for one in found] == [True, True]
+
+
+def test_a_limit_without_an_answer_is_told_beside_the_smallest_of_the_others(monkeypatch):
+    known = Margin(1.4, "N", governs="largest film pressure in N")
+    missing = Margin(math.nan, "N2", uncounted="smallest film in N2: the path stops")
+    tables = {"thrust": xr.Dataset(coords={"case": ["gust"], "bearing": ["N2"]})}
+    scene = SimpleNamespace(thrust=collar())
+    for found, factor in (([missing, known], 1.4), ([missing], math.nan)):
+        monkeypatch.setattr(compare_margins, "pad_margins", lambda *about, one=found: one)
+        margin = margin_of(scene, None, tables, [])
+        assert margin.factor == pytest.approx(factor, nan_ok=True)
+        assert margin.uncounted == missing.uncounted
+        assert missing.uncounted in _governed(margin)
 
 
 def test_all_ends_of_a_warm_collar_share_the_tables_of_the_stated_one():

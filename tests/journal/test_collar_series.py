@@ -18,7 +18,16 @@ from loadflow.journal import (
 )
 from loadflow.journal.collar_motion import FOLLOWED, backward, rates
 from loadflow.journal.collar_series import CollarSeries
-from loadflow.journal.row_table import DAMPING, FLOW, FORCE, SIDE_FLOW, TORQUE, RowTable
+from loadflow.journal.row_table import (
+    DAMPING,
+    FLOW,
+    FORCE,
+    MOMENT_ACROSS,
+    MOMENT_ALONG,
+    SIDE_FLOW,
+    TORQUE,
+    RowTable,
+)
 
 GRID = (12, 6)
 LANDS = ThrustBearing(9, 1.6, 1.9, pad_angle=0.6, taper=8e-5)
@@ -80,7 +89,27 @@ def test_the_stated_error_is_no_less_than_the_true_one(tilted):
     for name in ("minimum_film", "maximum_pressure", "friction_power"):
         true = np.array([getattr(one, name) for one in exact])
         assert np.abs(getattr(found, name) / true - 1).max() <= found.interpolation_error
+    moment = np.array([one.moment for one in exact])
+    off = np.linalg.norm(found.moment - moment, axis=1) / np.linalg.norm(moment, axis=1)
+    assert off.max() <= found.moment_error < 0.06
     assert found.interpolation_error < 0.04
+    assert tilted.equilibrium(FORCES, SPEEDS).moment_error == 0.0
+
+
+@pytest.mark.parametrize("row", [LANDS, TILTING])
+@pytest.mark.parametrize("share", [1e-3, 0.03, 0.3])
+def test_the_errors_of_a_table_have_that_of_its_moments(row, share):
+    """Beside the grid, whose pads stay as they follow; at 5e-5 m both carry all round."""
+    table = RowTable(row, GRID, 2e-6, 6e-4, tilts=True)
+    slope, angle = share * 5e-5 / 1.9, 1.0
+    exact = row.pressure(5e-5, 1.2, FILM, tilt=(slope * math.sin(angle), -slope * math.cos(angle)))
+    found = table.sums(*(np.array([each]) for each in (5e-5, slope, angle)))
+    across, along = 0.15 * 1.2 * found[[MOMENT_ACROSS, MOMENT_ALONG], 0]
+    cos, sin = math.cos(angle), math.sin(angle)
+    moment = np.array([cos * across - sin * along, sin * across + cos * along])
+    off = np.linalg.norm(moment - exact.moment) / np.linalg.norm(exact.moment)
+    assert 0.0 < off <= table.errors(FILM, 1.2, 0.3)[1] < 0.06
+    assert table.errors(FILM, 1.2, 0.0)[1] == 0.0
 
 
 def test_pads_that_follow_the_runner_lose_less_film_to_its_tilt():

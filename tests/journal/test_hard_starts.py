@@ -13,9 +13,18 @@ import pytest
 
 from benchmarks.robustness import families
 from loadflow.errors import SolverError
-from loadflow.journal import Contact, Guembel, JournalBearing, Lubricant
+from loadflow.journal import (
+    Contact,
+    Groove,
+    Guembel,
+    JournalBearing,
+    Lubricant,
+    MassConserving,
+    Pump,
+    Supply,
+)
 from loadflow.journal.models import grid
-from loadflow.journal.solvers import estimate
+from loadflow.journal.solvers import estimate, statics
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.warm_orbit import FEW
@@ -84,11 +93,11 @@ def _winding(monkeypatch: Any, solve: Any) -> int:
         with pytest.raises(Given):
             solve()
     omega, load = float(given["speeds"][0]), given["loads"][0]
-    statics = Statics(given["bearing"], given["options"], given["line"], abs(omega))
-    statics.raise_scale(given["loads"])
-    film, gap = statics.film, statics.gap
+    at_rest = Statics(given["bearing"], given["options"], given["line"], abs(omega))
+    at_rest.raise_scale(given["loads"])
+    film, gap = at_rest.film, at_rest.gap
     film.set_speed(omega)
-    held = statics._held(0)
+    held = at_rest._held(0)
     deepest = gap.rough.deepest if film.contact is not None else 0.0
 
     def missing(angle: float) -> np.ndarray:
@@ -250,3 +259,36 @@ def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
 def test_a_warm_film_that_the_fast_rung_does_not_find_has_the_word_of_the_grid():
     with pytest.raises(SolverError, match=r"load 0: the film gets hotter than 423\.15 K"):
         drawn("composed", 125)[1]()
+
+
+def test_a_shell_that_meets_the_shaft_as_it_softens_says_so_on_the_cells_asked_for(monkeypatch):
+    """Number 43: its ends meet the shaft at a hundredth of its compliance, on any cells."""
+    meshes: list[Any] = []
+    stepped = statics.solve_elastic_in_steps
+    monkeypatch.setattr(
+        statics,
+        "solve_elastic_in_steps",
+        lambda film, *given: meshes.append(film.mesh.shape) or stepped(film, *given),
+    )
+    with pytest.raises(SolverError, match="touches the elastic shell"):
+        drawn("composed", 43)[1]()
+    assert len(set(meshes)) == 1
+
+
+def test_a_load_that_its_supply_does_not_carry_is_not_sought_where_it_floats(monkeypatch):
+    """A heavy load lies far out, where the closed form has it: Newton begins there."""
+    starts: list[float] = []
+    newton = statics.solve_equilibrium
+
+    def asked(film: Any, force: Any, u: Any, position: Any, *more: Any, **given: Any) -> Any:
+        starts.append(math.hypot(*position[:2]))
+        return newton(film, force, u, position, *more, **given)
+
+    monkeypatch.setattr(statics, "solve_equilibrium", asked)
+    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
+    pump = Pump((0.0, 1e-4), (1e6, 5e5))
+    supply = Supply((Groove(np.pi, arc=0.4, length=0.15),), pump)
+    words = {"cavitation": MassConserving(), "grid": (48, 8), "supply": supply}
+    answer = bearing.equilibrium((1e5, 0.0), 20.0, Lubricant(0.03), **words)
+    assert answer.converged
+    assert min(starts) > 0.8

@@ -25,8 +25,10 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.line import Line
+from loadflow.journal.models import grid as grid_rung
 from loadflow.journal.models.composed_rest import films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.solvers.warm import coupled
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact, ExponentialOil
 
@@ -299,6 +301,54 @@ def test_a_settled_stiffness_is_that_of_the_grid(more, line):
     np.testing.assert_allclose(own.damping, grid.damping, atol=0.02 * np.abs(grid.damping).max())
 
 
+@pytest.mark.parametrize("rung", ["reduced", "grid"])
+@pytest.mark.parametrize(("more", "line"), [PLACED[0], ({}, {"tilt": (0.0, 1e-4)})])
+def test_a_settled_stiffness_at_a_place_is_that_of_the_shaft_at_rest_there(more, line, rung):
+    settled, frozen = (
+        film(rung, heat=replace(HEAT, stiffness=kind), **more) for kind in ("settled", "frozen")
+    )
+    rest = BEARING.equilibrium(LOAD, SPEED, settled, **line)
+    there, cold = (
+        BEARING.pressure(rest.eccentricity, SPEED, one, **line) for one in (settled, frozen)
+    )
+    largest = np.abs(rest.stiffness).max()
+    np.testing.assert_allclose(there.stiffness, rest.stiffness, atol=1e-7 * largest)
+    assert np.abs(cold.stiffness - rest.stiffness).max() > 0.02 * largest
+    np.testing.assert_array_equal(there.damping, cold.damping)
+
+
+@pytest.mark.parametrize(
+    ("rung", "module"),
+    [("reduced", "models.strip_film"), ("grid", "solvers.warm_rows")],
+)
+def test_a_settled_stiffness_of_which_one_film_has_no_temperatures_is_none(
+    rung, module, monkeypatch
+):
+    """All of it, on either rung, and what else is known of the load stays."""
+    solve, beside = coupled, []
+
+    def third_is_lost(equation, film_of, last, heat_of):
+        found = solve(equation, film_of, last, heat_of)
+        if last is None:
+            return found
+        beside.append(found)
+        return replace(found, converged=len(beside) != 3, why="too hot")
+
+    monkeypatch.setattr(f"loadflow.journal.{module}.coupled", third_is_lost)
+    options = film(rung, heat=replace(HEAT, stiffness="settled"))
+    state = BEARING.equilibrium(LOAD, SPEED, options, strict=False)
+    assert len(beside) == 3
+    assert state.converged
+    assert np.isnan(state.stiffness).all()
+    assert np.isfinite([*state.damping.flat, state.minimum_film]).all()
+    field = BEARING.pressure(state.eccentricity, SPEED, options, strict=False)
+    assert np.isfinite(field.stiffness).all()  # none is lost here
+    for verb, where, name in (("equilibrium", LOAD, "load"), ("pressure", (5e-5, 0.0), "film")):
+        beside.clear()
+        with pytest.raises(SolverError, match=f"{name} 0: no temperatures beside .*: too hot"):
+            getattr(BEARING, verb)(where, SPEED, options)
+
+
 def test_what_has_no_film_at_a_place_says_why():
     with pytest.raises(InputError, match="velocity"):
         BEARING.pressure((1e-5, 0.0), SPEED, film(), velocity=(1e-3, 0.0))
@@ -314,11 +364,25 @@ def test_what_has_no_film_at_a_place_says_why():
     assert np.isnan(flagged.temperature[0])
 
 
+def test_the_grid_is_not_asked_for_a_reason_that_is_not_told(monkeypatch):
+    """A shaft that touches the bore is refused all the same."""
+    monkeypatch.setattr(grid_rung, "pressure", lambda *given: pytest.fail("asked"))
+    hot, loose = film(heat=replace(HEAT, shell_transfer=0.0)), Control(strict=False)
+    found = BEARING.pressure([(9.9e-5, 0.0), (1e-5, 0.0)], [3e3, 10.0], hot, control=loose)
+    assert found.converged.tolist() == [False, True]
+    for control in (loose, Control()):
+        with pytest.raises(InputError, match=r"eccentricity 1: .*touches the bore"):
+            BEARING.pressure([(1e-5, 0.0), (1.1e-4, 0.0)], SPEED, film(), control=control)
+
+
 def test_pads_with_heat_over_the_area_are_those_of_the_grid():
     pads = replace(BEARING, shape=TiltingPads(4, 1.2))
-    state = pads.equilibrium(LOAD, SPEED, film())
-    assert state.converged
-    assert state.pad_tilt.shape == (4,)
+    own, grid = (pads.equilibrium(LOAD, SPEED, film(rung)) for rung in ("reduced", "grid"))
+    assert own.converged
+    assert own.pad_tilt.shape == (4,)
+    for name in (*TOLD, "eccentricity", "pad_tilt", "stiffness", "film_temperature"):
+        np.testing.assert_array_equal(getattr(own, name), getattr(grid, name))
+    assert own.maximum_temperature > HEAT.inlet_temperature + 5.0
     with pytest.raises(InputError, match="that of one temperature for pads in motion"):
         pads.orbit(np.linspace(0.0, 1e-2, 3), np.tile(LOAD, (3, 1)), SPEED, film())
 

@@ -190,3 +190,25 @@ def test_the_narrowest_gap_of_reduced_pads_is_that_between_their_places():
     tilts = path.pad_tilt.values / bearing.relative_clearance
     least = bearing.clearance * narrowest_on_pads(bearing, centres, np.zeros(1), tilts)
     np.testing.assert_allclose(path.minimum_film, least, rtol=1e-9)
+
+
+@pytest.mark.parametrize("law", [MassConserving(), Guembel()])
+def test_a_shaft_on_a_single_pad_is_held_sideways_by_the_squeeze_of_the_others(law):
+    """Its load turns off the pad: at rest another pad holds it only after it has gone there."""
+    bearing = JournalBearing(0.2, 0.2, 1e-3, shape=TiltingPads(3, 1.06, 0.14, 0.0))
+    time, angle = np.linspace(0.0, 0.1, 6), np.linspace(0.0, 0.5, 6)
+    force = 1e4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    words = {"cavitation": law, "grid": (48, 8), "edge_pressure": 3e5, "step": "adaptive"}
+    oil = Lubricant(0.03)
+    path, fine = (
+        bearing.orbit(time, force, 20.0, oil, step_tolerance=share, **words)
+        for share in (1e-3, 1e-4)
+    )
+    assert path["residual"].max() < 1e-8
+    assert int(path["steps"].sum()) < 200
+    # as its errors of step ask, and on its way to where it would stand under the last load
+    np.testing.assert_allclose(path["eccentricity_ratio"], fine["eccentricity_ratio"], atol=5e-3)
+    words.pop("step")
+    rest = bearing.equilibrium(force[-1], 20.0, oil, **words)
+    assert fine["eccentricity_ratio"].values[-1] < float(rest.eccentricity_ratio)
+    assert float(fine["eccentricity"].values[-1, 1]) > 0.6 * rest.eccentricity[1]

@@ -198,6 +198,24 @@ def test_pressures_are_those_of_a_shaft_that_turns_and_one_that_stands_has_a_loa
     assert [dlc for dlc, row in LOAD_CASES.items() if row.parked] == ["6.1", "6.2", "6.3", "7.1"]
 
 
+def test_a_smooth_film_that_starts_has_the_pressure_of_what_floats_and_one_with_asperities_all():
+    ratio = np.array([0.997, 0.97, 0.94, 0.9])
+    pressure = np.array([10e6, 6e6, 3e6, 2e6])
+    data = {
+        "time": np.arange(4.0), "speed": np.linspace(0.01, 0.5, 4), "weight": np.ones(4),
+        "maximum_pressure": pressure, "eccentricity_ratio": ratio,
+        "minimum_film": 1e-3 * (1 - ratio),
+        "converged": np.ones(4, bool), "residual": np.zeros(4), "friction_power": np.ones(4),
+    }  # fmt: skip
+    about = {"critical_eccentricity_ratio": 0.95}
+    samples = xr.Dataset({k: ("sample", v) for k, v in data.items()}, attrs=about)
+    told = extremes(samples, starts=True)
+    assert (told["largest_pressure"], told["largest_pressure_time"]) == (3e6, 2.0)
+    assert extremes(samples)["largest_pressure"] == 10e6  # in power production it is judged
+    sharing = samples.assign(contact_share=("sample", [0.5, 0.1, 0.0, 0.0]))
+    assert extremes(sharing, starts=True)["largest_pressure"] == 10e6
+
+
 def test_faults_end_in_a_stop_and_are_no_power_production_to_the_limits_of_a_film():
     produce = [dlc for dlc, row in LOAD_CASES.items() if not row.stands_or_starts]
     assert produce == ["1.1", "1.2", "1.3", "1.4", "1.5"]

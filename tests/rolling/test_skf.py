@@ -281,7 +281,8 @@ def test_a_run_has_the_torque_after_skf_beside_ours_of_balls_and_their_bath(tmp_
 
     means = []
     for name, entry in (("dry", {}), ("wet", {"oil_level": 0.1})):
-        run = lf.run(scene_of({"series": "all"} | entry, "mineral-vg-320"), out=tmp_path / name)
+        scene = scene_of({"series": "all"} | entry, "mineral-vg-320")
+        run = lf.run(scene, out=tmp_path / name, report=False)
         table = run.tree["friction"].to_dataset()
         assert "mean_palmgren_torque" not in table
         means.append(float(table["mean_skf_torque"].max()))

@@ -44,6 +44,10 @@ def test_it_finds_what_the_run_has(finished):
     assert {row["verdict"] for row in view.verdicts()} <= {
         "holds", "broken", "no limit", "not answered",
     }  # fmt: skip
+    film = next(row for row in view.verdicts() if row["what"] == "smallest film")
+    assert film["bearing"] == "journal N"
+    assert film["value"].endswith(" µm")
+    assert film["limit"] == "≥ 13.8 µm"
     assert {"loads", "journal"} <= {row["stage"] for row in view.models()}
 
 
@@ -104,5 +108,8 @@ async def _look(address, profile):
             width=400, height=900, deviceScaleFactor=1, mobile=False,
         )  # fmt: skip
         await asyncio.sleep(0.5)
+        assert await page.evaluate("document.documentElement.scrollWidth") <= 400
+        await page.open(f"{address}?tab=0")
+        await page.shows("smallest film", "limit from")
         assert await page.evaluate("document.documentElement.scrollWidth") <= 400
         assert page.console == []

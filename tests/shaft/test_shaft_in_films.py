@@ -11,7 +11,7 @@ import xarray as xr
 from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
 from loadflow.scene.scene import Scene, make_scene
-from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint
+from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint, reactions
 from loadflow.shaft import bearing_loads as suspended
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
@@ -20,6 +20,7 @@ from loadflow.stages.film_past import AT_REST
 from loadflow.stages.film_support import film_model
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.studies.compare_factor import at_place, grown
 from loadflow.turbines import load_turbine
 
 STEPS, STEP = 600, 0.05
@@ -116,6 +117,40 @@ def test_a_stiff_shaft_is_tilted_by_where_it_is_in_both_films():
     bent = np.abs(tilt[:, 0, ::-1] * [1.0, -1.0] - slope).max()
     assert np.abs(slope).max() > 5e-5
     assert bent < 1e-3 * np.abs(slope).max()
+
+
+def test_under_more_load_the_clearances_bound_the_tilt_of_a_shaft_in_films(monkeypatch):
+    """Followed anew under 1.6 times all loads, it is tilted half as far off."""
+    scene, loads = scene_of(lubricant={"viscosity": 0.08}), loads_of(steps=200)
+    found = shaft.bearing_loads(scene, None, {"loads": loads})
+    hub = ("hub_force", "hub_moment")
+    more = loads.assign({name: 1.6 * loads[name] for name in hub})
+    monkeypatch.setattr(reactions, "GRAVITY", 1.6 * reactions.GRAVITY)
+    anew = shaft.bearing_loads(scene, None, {"loads": more})
+    for name in ("N", "N2"):
+        own, known = at_place(scene, found, name), anew["tilt"].sel(bearing=name)
+        off, whole = (
+            float(np.abs(tilt - known).isel(time=slice(50, None)).max())
+            for tilt in (grown(own, 1.6)["tilt"], 1.6 * own["tilt"])
+        )
+        assert off < 0.5 * whole, name
+
+
+def test_a_stiff_shaft_tilts_in_its_films_as_far_as_the_clearances_let_it():
+    scene = scene_of(modulus=2.1e14)
+    own = at_place(scene, shaft.bearing_loads(scene, None, {"loads": loads_of()}), "N")
+    seen, twice, most = (
+        np.linalg.norm(grown(own, load)["tilt"].transpose("time", "axis"), axis=1).max()
+        for load in (1.0, 2.0, 1e3)
+    )
+    assert seen < twice < 1.5 * seen
+    assert twice < most < 2 * 1e-3 / 5.0
+
+
+def test_a_shaft_on_rigid_bearings_has_no_tilt_in_clearances():
+    scene = scene_of([{"radial": 3e9}, {"radial": 3e9}], tilt=False)
+    found = shaft.bearing_loads(scene, None, {"loads": loads_of(steps=5)})
+    assert "clearance_tilt" not in at_place(scene, found, "N")
 
 
 def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):

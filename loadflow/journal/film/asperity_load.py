@@ -244,16 +244,19 @@ class YieldingNodeLoad(GrowingNodeLoad):
     def _give(self) -> float:
         return self._shell.rough.yields[0]
 
-    def by_growth(self, position: Array) -> Array:
-        """Derivative of the load by the growth of the cells, (m, nx, nz), N per clearance."""
+    def with_growth(self, position: Array) -> tuple[Touch, Array]:
+        """What they carry, and what its load owes to the growth of the cells.
+
+        The second is its derivative, (m, nx, nz), N per clearance.
+        """
         gaps, modes = self._gaps(position), self._modes
         relief = np.zeros(gaps.shape)
-        self._touch(gaps, self._give, relief)
+        touch = self._touch(gaps, self._give, relief)
         parts = [
             self._to_columns @ (reach[:, None] * (relief @ (lengths[:, None] * self._to_rows)))
             for reach, lengths in zip(modes.reach, modes.lengths)
         ]
-        return self._unit * np.array(parts)
+        return touch, self._unit * np.array(parts)
 
 
 def _worst(contact: Contact, parameter: float) -> tuple[float, float]:

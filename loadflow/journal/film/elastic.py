@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
-from loadflow.journal.film.asperity_load import YieldingNodeLoad
+from loadflow.journal.film.asperity_load import AsperityLoad, Touch, YieldingNodeLoad
 from loadflow.journal.film.compliance import Compliance
 from loadflow.journal.film.film import DiscreteFilm, Factors
 from loadflow.journal.film.gap_elastic import ElasticGap
@@ -55,9 +55,13 @@ class ElasticFilm(DiscreteFilm):
             pressure = self.state[DLOAD] * self._fields(columns)
             growth = self._grows(pressure)
             asperities = cast("YieldingNodeLoad", self.contact)
-            slopes = asperities.by_growth(self._place) / (self.mirrors * self.radius**2)
+            self._touch, by_growth = asperities.with_growth(self._place)
+            slopes = by_growth / (self.mirrors * self.radius**2)
             carried += np.einsum("mxz,lxz->lm", slopes, growth)
         return carried
+
+    def _touched(self, contact: AsperityLoad, position: Array) -> Touch:
+        return self._touch  # that of `_carried`: nearly all of what asperities take
 
     def relax(self, share: float = 1.0) -> None:
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""

@@ -72,6 +72,11 @@ class EnergyEquation(Temperatures):
         grows = heat.growth is not None
         self._expansion = RingExpansion(heat, film.mesh, film.radius) if grows else None
 
+    @property
+    def way(self) -> float:
+        """Speed of the shaft, rad/s, that is set."""
+        return self.film.speed
+
     def thicken(self, state: Array) -> None:
         """Give the film the viscosity and the growth of its cells at the temperatures `state`."""
         across, growth = self._at_state(state)

@@ -12,7 +12,7 @@ from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, Cav
 from loadflow.journal.film import _band_kernels as band_kernel
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film._kernels import HM
-from loadflow.journal.film.asperity_load import AsperityLoad
+from loadflow.journal.film.asperity_load import AsperityLoad, Touch
 from loadflow.journal.film.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.linearised import Linear, SingularFilm
@@ -264,8 +264,7 @@ class DiscreteFilm:
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
             column *= self.ab[:, 2 * mesh.bandwidth]  # by what `jacobian` has held the cells
         factors = self.ab, mesh.bandwidth, np.empty(len(self.ab), dtype=np.int32)
-        singular = band_kernel.factorise(*factors)
-        if singular:
+        if singular := band_kernel.factorise(*factors):
             why = f"film matrix is singular in row {singular} at eccentricity {position}"
             raise SingularFilm(why)
         self._solve(factors, columns)
@@ -278,9 +277,7 @@ class DiscreteFilm:
         load = loads[0] - self.ambient - carried[0]
         if not math.isfinite(float(load.sum())):
             raise SingularFilm(f"film matrix has no solution at eccentricity {position}")
-        direct = -carried[1:moves]
-        if len(modes) > 1:
-            direct += loads[1:]
+        direct = (loads[1:] if len(modes) > 1 else 0.0) - carried[1:moves]
         damping = -carried[moves:].T if damped else np.zeros((gap.size, gap.size))
         stiffness = direct.T
         if mesh.polar:
@@ -292,7 +289,7 @@ class DiscreteFilm:
             load, damping = frame @ load, frame @ damping @ frame.T
             stiffness = frame @ np.array([direct[0], sideways]).T @ frame.T
         if self.contact is not None:
-            touch = self.contact.at(position)
+            touch = self._touched(self.contact, position)
             load, stiffness = load + touch.load, stiffness + touch.stiffness
         return Linear(load, stiffness, damping, columns)
 
@@ -345,6 +342,10 @@ class DiscreteFilm:
         out = np.empty(around.shape[:2])
         kernel.load_of(self.state[LOAD], around, self.gap.across, self.mesh.dz, out)
         return out
+
+    def _touched(self, contact: AsperityLoad, position: Array) -> Touch:
+        """What the asperities carry at the state last placed, whose `_carried` is known."""
+        return contact.at(position)
 
     def load_of(self, frame: Array, position: Array) -> Array:
         """Load of film and asperities at the state last placed, N."""

@@ -88,7 +88,8 @@ class GrowingGap(ShapedGap):
 
     def grown_at(self, places: tuple[Between, Between]) -> Array:
         """Growth at `places` (n, l), clearances."""
-        return places[0].of(self.pressed) + places[1].of(self.expansion)
+        grown = places[0].of(self.pressed)
+        return grown + places[1].of(self.expansion) if self.expansion.any() else grown
 
 
 class ElasticGap(GrowingGap):

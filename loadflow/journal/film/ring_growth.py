@@ -30,6 +30,7 @@ Array = NDArray[np.float64]
 OPEN = math.pi / 4
 """Largest part of the ring, rad, along which there may be no film."""
 
+_NO_ARC = 1e-9  # rad
 _TOGETHER = 8  # highest order of which the slices move each other
 
 RUNS_ROUND = "None but where a film runs round, which warms the ring"
@@ -190,8 +191,8 @@ class RingExpansion:
     heat : FilmHeat
         With `growth`.
     mesh : CellsAround
-        Cells, whose edges across are those of the ring, too. Where a bore ends in a groove, it is
-        as warm there as the film that its oil flows into.
+        Cells, whose edges across are those of the ring, too. Where they do not go all round, the
+        ring is as warm between the last and the first as the film that its oil flows into.
     radius : float
         m.
 
@@ -209,6 +210,7 @@ class RingExpansion:
         diameter, bore = growth.outer_diameter, 2 * radius
         require(diameter > bore, "growth.outer_diameter", diameter, f"m, above the bore's {bore:g}")
         without = 2 * math.pi - float(mesh.dx.sum())
+        self.covered = without < _NO_ARC
         require(without < OPEN, "growth", growth, RUNS_ROUND)
         outer, biot = diameter / bore, _biot(heat, growth, radius)
         shape = growth.held, growth.poisson_ratio
@@ -237,15 +239,17 @@ class RingExpansion:
         self._waves = np.concatenate([mean[:, :, :-1], waves[together]])
         self._parts = np.concatenate([mean * wide / (2 * np.pi), parts[together]])
 
-    def of(self, shell: Array, shaft: float, way: float = 1.0) -> Array:
+    def of(self, shell: Array, shaft: float, way: float | None) -> Array:
         """Growth of the gap (nx, nz), m, of surfaces at `shell` (nx, nz) and `shaft`, K.
 
-        The shaft turns one `way`, rad/s, in which oil flows on from the groove behind the cells.
+        The shaft turns one `way`, rad/s, in which oil flows on from the groove behind the cells;
+        None where these go all round.
         """
+        assert self.covered or way is not None, "the ring ends: which way does its oil flow on?"
         growth, heat = self.growth, self.heat
         cold = growth.reference_temperature
         back = heat.shell_temperature if heat.shell_transfer > 0.0 else cold
-        behind = shell[:1] if way > 0.0 else shell[-1:]
+        behind = shell[:1] if (way or 0.0) > 0.0 else shell[-1:]
         above = np.concatenate([shell, behind]) - back
         bore = self._even * (back - cold) + self._slices @ above
         parts = (self._parts @ above) @ self._moves.swapaxes(-1, -2)

@@ -96,10 +96,14 @@ class ShellContact(YieldingNodeLoad):
 
     def at(self, position: Array) -> Touch:
         """What they carry with the shaft at `position` (m,), where the shell was settled."""
-        touch = super().at(position)
+        return self.with_growth(position)[0] if self._touching.size else super().at(position)
+
+    def with_growth(self, position: Array) -> tuple[Touch, Array]:
+        """As of the base, with the shell that follows the shaft where they touch."""
+        touch, by_growth = super().with_growth(position)
         if self._touching.size:  # else the shell has no growth by asperities to follow
-            touch.stiffness[:] += np.einsum("mxz,nxz->mn", self.by_growth(position), self.by_place)
-        return touch
+            touch.stiffness[:] += np.einsum("mxz,nxz->mn", by_growth, self.by_place)
+        return touch, by_growth
 
     # --- inside ----------------------------------------------------------------------------------
     def _asperities(self, rigid: Array, growth: Array) -> tuple[Array, Array]:

@@ -132,6 +132,11 @@ class Temperatures(ABC):
         """The same on average over the cells beside grooves, m."""
         return float(np.average(self.growth[self.wet], weights=self.volumes.area))
 
+    @property
+    @abstractmethod
+    def way(self) -> float | None:
+        """Speed of the shaft, rad/s; None where its sign does not matter: cells go all round."""
+
     @abstractmethod
     def thicken(self, state: Array) -> None:
         """Give the film what it has of the temperatures `state`: viscosity, and growth if any."""
@@ -221,7 +226,7 @@ class Temperatures(ABC):
             return every, None
         shell = temperature.copy()
         shell[self.wet] = self._surfaces.shell.at(shell[self.wet], self._shaft, self._skew)
-        return every, self._expansion.of(shell, self._shaft, self.film.speed)
+        return every, self._expansion.of(shell, self._shaft, self.way)
 
     def _flows(self, low: Numbers, high: Numbers, flow: Array, drag: Array) -> Flows:
         """Flows from volumes `low` to `high`, of either sign; those within one volume left out."""

@@ -22,20 +22,16 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid
-from loadflow.journal.models.composed_heat_position import settled_stiffness
+from loadflow.journal.models.composed_heat_position import films_beside
 from loadflow.journal.models.composed_model import build, levels_at_rest, warn_unresolved
 from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.strip_film import SHARP, Made, StripFilm, Tried, with_heat
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import (
-    WarmFilm,
-    heat_columns,
-    in_grown_clearances,
-    no_warmth,
-)
+from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
 from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
+from loadflow.journal.solvers.warm_rows import heat_columns, in_grown_clearances
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -119,7 +115,9 @@ def equilibrium(
         if not found.converged and last is not None:
             tried, found = _at_rest(around, n, None)
         if not found.converged and limits.strict:
-            why = no_warmth(found) or _why_by_grid(bearing, options, force, speed, line, limits, n)
+            one = np.array([n])
+            given = bearing, options, force[one], speed[one], line.at(one), limits
+            why = no_warmth(found) or grid.why_none(partial(grid.equilibrium, *given))
             raise SolverError(f"load {n}: {why}")
         films, row = tried.film, _row(around, n, tried.film, found)
         rows.append(row)
@@ -144,24 +142,6 @@ def equilibrium(
     return answered_rows(converged, columns_of(rows))
 
 
-def _why_by_grid(
-    bearing: JournalGeometry,
-    options: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    n: int,
-) -> str:
-    """Why the grid has no film for load `n` either, or that it has one."""
-    one = np.array([n])
-    try:
-        grid.equilibrium(bearing, options, force[one], speed[one], line.at(one), limits)
-    except SolverError as error:
-        return str(error).removeprefix("load 0: ")
-    return 'no film on rung = "reduced"; "grid" has one'
-
-
 def _at_rest(
     around: _Around, n: int, last: tuple[Solution, Warmth] | None
 ) -> tuple[Tried[RestingFilms], WarmFilm]:
@@ -183,16 +163,13 @@ def _settled(
     last: tuple[Solution, Warmth],
 ) -> Array:
     """Stiffness of load `n` at a `place` (4,), N/m, of a shaft whose temperatures follow it."""
-    films, bearing = tried.film, around.bearing
+    films, bearing, line = tried.film, around.bearing, around.line.at(np.array([n]))
     least = float(films.answer["minimum_film"][0]) / bearing.clearance
-    line = around.line.at(np.array([n]))
-    stiffness = settled_stiffness(
-        films.model, line, around.equation, place, least, float(around.speed[n]), tried.level,
-        last, around.limits,
-    )  # fmt: skip
-    if around.strict and not np.isfinite(stiffness).all():
-        raise SolverError(f"load {n}: no temperatures beside the equilibrium")
-    return stiffness
+    film_at = films_beside(
+        films.model, line, around.equation, float(around.speed[n]), tried.level, last, around.limits
+    )
+    place = place[: 4 if films.model.whole else 2]
+    return settled_stiffness(bearing, film_at, place, least, f"load {n}", around.strict)
 
 
 def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[str, Any]:
@@ -205,8 +182,7 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     operating = operating_columns(bearing, *load, heat.lubricant(mean), place)
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
-    z = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
-    where = {"angle": equation.columns.angle, "z": z * bearing.radius}
+    where = {"angle": equation.columns.angle, "z": equation.whole_z * bearing.radius}
     row |= warm | heat_columns(equation, found) | where
     if heat.growth is not None:
         row |= in_grown_clearances(row, bearing, equation, found)

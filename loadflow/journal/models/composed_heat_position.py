@@ -5,8 +5,7 @@ Film and temperatures agree at every position as they do at rest, on the same st
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any, cast
@@ -14,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import SolverError
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.film_model import Film
@@ -34,7 +33,8 @@ from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.strip_film import SHARP, StripFilm, Tried, with_heat
 from loadflow.journal.rows import answered_rows, columns_of
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import DRIFT, OVER_AREA, WarmFilm, heat_columns, no_warmth
+from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
+from loadflow.journal.solvers.warm_rows import OVER_AREA, heat_columns, require_apart
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -73,8 +73,8 @@ class _AtPlaces:
             self._held[n] = held
             speed, rubbed = float(here.speed[n]), 0.0
             if here.options.contact is not None:
-                told = model.results(row[None], np.array([speed]))
-                rubbed = float(told["contact_power"][0])
+                said = model.results(row[None], np.array([speed]))
+                rubbed = float(said["contact_power"][0])
             made = self.equation.made(model, speed, rubbed)
         load = np.append(held.force, row[at.MOMENT_X : at.MOMENT_Y + 1])
         linear = Linear(load, held.slopes[0], held.slopes[1], held.place)
@@ -124,12 +124,16 @@ def pressure(
     films: list[tuple[Positions, Held]] = []
     rows: list[dict[str, Any]] = []
     left, wider = np.zeros(speed.size, bool), np.ones(speed.size)
+    stiffness: dict[int, Array] = {}
     for n in range(speed.size):
+        one = np.array([n])
         tried, found = places.found(n, levels, None)
         if not found.converged:
-            why = _why_by_grid(bearing, options, position, speed, line, limits, n)
+            require_apart(bearing, options, position[n], float(speed[n]), line, n)
             if limits.strict:
-                raise SolverError(f"film {n}: {no_warmth(found) or why}")
+                at_place = position[one], velocity[one], speed[one], line.at(one), limits
+                on_grid = partial(grid.pressure, bearing, options, *at_place)
+                raise SolverError(f"film {n}: {no_warmth(found) or grid.why_none(on_grid)}")
         if tried is None:  # grown into its shell in oil as it enters: a film without heat
             own = Positions(bearing, bare, position, velocity, speed, line, each)
             films.append((own, own.on(n, own.model(bare.cells[0], levels[0], None), None)))
@@ -138,14 +142,24 @@ def pressure(
             left[n] = found.converged and tried.left
         wider[n] = 1.0 + equation.mean_growth / bearing.clearance
         rows.append(heat_columns(equation, found) | {"converged": found.converged})
+        if heat.stiffness == "settled" and tried and found.converged and found.warmth:
+            model, place, row = tried.film.model, tried.film.place, tried.film.row
+            last = found.solution, found.warmth
+            film_at = films_beside(
+                model, line.at(one), equation, float(speed[n]), tried.level, last, each
+            )
+            place = place[: 4 if model.whole else 2]
+            given = place, float(row[at.LEAST]), f"film {n}", limits.strict
+            stiffness[n] = settled_stiffness(bearing, film_at, *given)
     if left.any():
         warn_unresolved(left, f"position {int(left.argmax())}")
     held = [film for _, film in films]
     shown = [own.shown(held) for own, _ in films]
     answer, z = told(films[0][0], held, shown), places_across(shown[0])
     answer["eccentricity_ratio"] /= wider
-    strips = np.append(-equation.z[::-1], equation.z) if equation.mirrored else equation.z
-    answer |= _at_points(columns_of(rows), strips, z / bearing.radius, heat)
+    for n, settled in stiffness.items():
+        answer["stiffness"][n] = settled
+    answer |= _at_points(columns_of(rows), equation.whole_z, z / bearing.radius, heat)
     return answered_rows(answer["converged"], answer), z
 
 
@@ -165,66 +179,26 @@ def _at_points(
     return rows | fields
 
 
-def _why_by_grid(
-    bearing: JournalGeometry,
-    options: Film,
-    position: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    n: int,
-) -> str:
-    """Why the grid has no film at position `n` either, or that it has one.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        The shaft touches the bore.
-    """
-    one, own = np.array([n]), replace(limits, strict=True)
-    at_place = position[one], np.zeros((1, 2)), speed[one], line.at(one)
-    try:
-        grid.pressure(bearing, options, *at_place, own)
-    except SolverError as error:
-        return str(error).removeprefix("film 0: ")
-    except InputError as error:
-        said = re.sub(r"^eccentricity 0:", f"eccentricity {n}:", str(error))
-        raise InputError(said) from error
-    return 'no film on rung = "reduced"; "grid" has one'
-
-
-def settled_stiffness(
+def films_beside(
     film: ComposedFilm,
     line: Line,
     equation: StripFilm,
-    place: Array,
-    least: float,
     speed: float,
     level: int,
     last: tuple[Solution, Warmth],
     limits: Limits,
-) -> Array:
-    """Stiffness, N/m, of a shaft that moves so slowly that the temperatures follow.
+) -> Callable[[Array], WarmFilm]:
+    """Films on the points of a `level` and their temperatures, of places (2,) or (4,) of the shaft.
 
-    NaN where a film beside its `place` (4,) has no temperatures. There the `film` on the points of
-    a `level` is `least` clearances thick, with the temperatures of `last`.
+    The latter where the `film` is one of all the width.
     """
-    bearing, size = film.bearing, 4 if film.whole else 2
-    step = DRIFT * least
-    ways = step * np.concatenate([np.eye(4)[:size], -np.eye(4)[:size]])
-    places, beside = place + ways, Line()
-    if film.whole:
-        bend = None if line.bend is None else np.repeat(line.bend, len(places), axis=0)
-        tilt = places[:, 2:] * bearing.clearance / bearing.radius
-        beside = Line(tilt=tilt, bend=bend)
-    speeds = np.full(len(places), speed)
-    given = bearing, film.options, equation, places[:, :2], speeds, beside, limits
-    moved = _AtPlaces(*given)
-    loads = np.full((len(places), size), np.nan)
-    for n in range(len(places)):
-        _, found = moved.found(n, [level], last)
-        if found.converged:
-            loads[n] = found.solution.linear.load[:size]
-    slopes = (loads[:size] - loads[size:]).T / (2.0 * step)
-    lengths = np.where(np.arange(size) < 2, 1.0, bearing.radius)  # those of tilts are arms
-    return np.asarray(slopes * np.outer(lengths, lengths) / bearing.clearance)
+    bearing, rate = film.bearing, np.array([speed])
+
+    def film_at(place: Array) -> WarmFilm:
+        there = Line()
+        if film.whole:
+            there = Line(tilt=place[None, 2:] * bearing.relative_clearance, bend=line.bend)
+        given = bearing, film.options, equation, place[None, :2], rate, there, limits
+        return _AtPlaces(*given).found(0, [level], last)[1]
+
+    return film_at

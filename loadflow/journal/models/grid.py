@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -31,8 +33,8 @@ from loadflow.journal.solvers.transient import (
     orbit_dataset,
     orbit_row,
 )
-from loadflow.journal.solvers.warm import warm_fields, warm_rows
 from loadflow.journal.solvers.warm_mean import mean_heat, with_temperatures
+from loadflow.journal.solvers.warm_rows import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.one_thread import on_one_thread
 
@@ -150,6 +152,28 @@ def _lines(bearing: JournalGeometry, line: Line, count: int) -> Array | None:
     return rows
 
 
+@contextmanager
+def numbered(index: int) -> Iterator[None]:
+    """Have errors of the one load or position of a call say the number `index`."""
+    try:
+        yield
+    except LoadflowError as error:
+        said = re.sub(r"^(load|film|eccentricity) 0:", rf"\1 {index}:", str(error))
+        raise type(error)(said) from error
+
+
+def why_none(on_grid: Callable[[], object]) -> str:
+    """Why one load or position that a coarser model does not solve has no film `on_grid` either.
+
+    Or that it has one.
+    """
+    try:
+        on_grid()
+    except SolverError as error:
+        return re.sub("^(load|film) 0: ", "", str(error))
+    return 'no film on rung = "reduced"; "grid" has one'
+
+
 def solve_on_grid(
     bearing: JournalGeometry,
     film: Film,
@@ -167,12 +191,10 @@ def solve_on_grid(
     """
     force, speed = answer["force"][index], answer["speed"][index]
     own = Limits(_TOLERANCE, _STEPS, limits.strict)
-    try:
+    with numbered(index):
         [state] = equilibrium_rows(
             bearing, film, force[None], np.array([speed]), line.at(np.array([index])), own
         )
-    except SolverError as error:
-        raise SolverError(str(error).replace("load 0:", f"load {index}:", 1)) from error
     _take(answer, index, state)
 
 
@@ -200,11 +222,8 @@ def hold_on_grid(
     one = np.array([index])
     given = bearing, film, position[one], velocity[one], speed[one], line.at(one)
     own = Limits(_TOLERANCE, _STEPS, limits.strict)
-    try:
+    with numbered(index):
         found, places = pressure(*given, own)
-    except LoadflowError as error:
-        said = re.sub(r"^(film|eccentricity) 0:", rf"\1 {index}:", str(error))
-        raise type(error)(said) from error
     state = {name: values[0] for name, values in found.items()}
     for name in ("pressure", "fill", "deformation", "gap"):
         rows = np.array([np.interp(z, places, values) for values in state[name]])

@@ -104,6 +104,15 @@ class StripFilm(Temperatures):
             self._expansion = RingExpansion(heat, self.columns, units.radius)
         self.thicken(self.state(None))
 
+    @property
+    def whole_z(self) -> Array:
+        """Places of the strips across the whole width, shaft radii."""
+        return np.append(-self.z[::-1], self.z) if self.mirrored else self.z
+
+    @property
+    def way(self) -> None:
+        """None: its columns go all round, those of grooves between segments among them."""
+
     def thicken(self, state: Array) -> None:
         """Have the viscosity and the growth of the temperatures `state`, in units of the film."""
         across, growth = self._at_state(state)

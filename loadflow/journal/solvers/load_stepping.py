@@ -23,6 +23,7 @@ _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
 _FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
 _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
+_CLOSING, _CLOSED = 1e-3, 2  # gap left, in clearances, and next steps without, where it has closed
 _STEPS, _STEPS_EACH = 16, 25  # Newton steps of each, and of all in multiples of those
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
@@ -101,7 +102,7 @@ def solve_by_stiffness(
     if not state.converged:
         state = solve_from_held(film, force, position, tolerance, 2 * most, free)
         spent += state.iterations
-    share, step = 0.0, _FIRST_SHARE
+    share, step, left, closed = 0.0, _FIRST_SHARE, film.clearance_left(state.position), 0
     while state.converged and step >= _LEAST_SHARE * max(share, _FIRST_SHARE):
         at = min(1.0, share + step)
         film.relax(share=at)
@@ -111,10 +112,13 @@ def solve_by_stiffness(
         if trial.converged:
             if at == 1.0:
                 return replace(trial, iterations=spent)
-            state, share = trial, at
+            state, share, left, closed = trial, at, film.clearance_left(trial.position), 0
             step *= 2.0 if trial.iterations < _STEPS_EACH // 2 else 1.2
         else:
             step *= 0.4
+            closed = closed + 1 if film.clearance_left(trial.position) <= 0.0 else 0
+        if closed >= _CLOSED and left < _CLOSING:  # the shell meets the shaft: show where
+            return replace(trial, iterations=spent, residual=1.0 - share)
         if spent > _STEPS * most:
             break
     if state.converged:  # show the gap that is left, in the shell that it was found in

@@ -32,14 +32,15 @@ def other_pads(gap: ShapedGap, last: Past, reached: Array, speed: float) -> Rows
     """Pads that may have a film in a step from `last` in which Newton ended at `reached`, without.
 
     Those that the step has left flat lose theirs. If none has, those whose gap is hardly wider
-    than that of a pad held at rest get one: on a single pad a shaft is free to go sideways.
+    than that of a pad held at rest get one; on a single pad, where a shaft is free to go sideways,
+    all do: what holds it is the squeeze of the others, however far they are.
     """
     if np.isfinite(reached).all():
         flat = [row for row in last.pads.tolist() if abs(gap.lift(row, reached)) < FLAT]
         if flat:
             return np.setdiff1d(last.pads, flat)
     near = gap.pivots @ last.position[:2] > 1.0 - gap.pad_curve(speed).widest - NEAR
-    return np.union1d(last.pads, gap.pads[near])
+    return np.union1d(last.pads, gap.pads[near] if last.pads.size > 1 else gap.pads)
 
 
 def with_pads(

@@ -223,31 +223,40 @@ class Statics:
     ) -> Solution:
         """Film at a given `place`; pads take the tilt without moment and follow the `velocity`.
 
-        Raises
-        ------
-        loadflow.errors.InputError
-            The shaft touches the bore.
+        Errors as of `apart`.
         """
         film, gap = self.film, self.gap
         film.relax()
         film.set_speed(omega)
-        position, moving = self._held(index), np.zeros(gap.size)
-        position[:2], moving[:2] = place, velocity
-        position = gap.lifted(position, omega)
+        position, moving = self.apart(index, place, omega, name), np.zeros(gap.size)
+        moving[:2] = velocity
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if film.elastic:
             return self._checked(solve_by_approach(film, position, moving, *limits))
-        if not gap.narrowest(position) > 0.0:
-            touch = "the shaft touches the bore"
-            why = touch if film.contact is None else f"{touch} beyond the law of contact"
-            raise InputError(
-                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
-                + narrowest_place(self.bearing, gap, position)
-            )
         if not gap.pads.size:
             return self._checked(solve_film(film, film.start(), position, moving, *limits))
         pads = self._on_pads(gap.converging(position, omega))
         return self._checked(film_on_pads(film, self._shaped, position, moving, pads, *limits))
+
+    def apart(self, index: int, place: Array, omega: float, name: str = "eccentricity") -> Array:
+        """Position (m,) at a given `place` of a shaft that does not touch the bore.
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            It touches the bore, in a shell that does not give way.
+        """
+        position = self._held(index)
+        position[:2] = place
+        position = self.gap.lifted(position, omega)
+        if not (self.film.elastic or self.gap.narrowest(position) > 0.0):
+            touch = "the shaft touches the bore"
+            why = touch if self.film.contact is None else f"{touch} beyond the law of contact"
+            raise InputError(
+                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
+                + narrowest_place(self.bearing, self.gap, position)
+            )
+        return position
 
     def settled(self, index: int, load: Array, omega: float, control: Limits) -> Solution:
         """Equilibrium on this mesh, by way of that on one that follows the gap."""
@@ -349,8 +358,6 @@ class Statics:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         film, gap = self.film, self.gap
         lifts, fed = film.lifts, film.pockets.free.size > 0
-        if lifts and fed:
-            yield from self._floating(force, estimate)
         if last is not None and last.estimate is not None and _same(last.free, free):
             position = estimate.copy()
             position[free] = last.position[free]
@@ -358,15 +365,21 @@ class Statics:
             reach = math.inf if film.elastic else NEAR * film.narrowest(last.u, position)
             if math.hypot(*(estimate - last.estimate)[:2]) < reach:
                 yield last.u, position
+        floating = self._floating(force, estimate) if lifts and fed else None
+        afloat = floating is not None and self._carries_there(floating, force)
+        if floating is not None and afloat:
+            yield floating.u, floating.position
         still = np.zeros(gap.size)
         if pads.size:  # a film first: from none the tilts would go far
             yield solve_film(film, film.start(), estimate, still, limits[0], _FIRST).u, estimate
         else:
             yield film.start(), estimate
         if lifts and not fed:
-            yield from self._floating(force, estimate)
+            floating = self._floating(force, estimate)
+        if floating is not None and not afloat:
+            yield floating.u, floating.position
 
-    def _floating(self, force: Array, estimate: Array) -> Iterator[tuple[Array, Array]]:
+    def _floating(self, force: Array, estimate: Array) -> Solution | None:
         """Start for a shaft that its supply carries: well off the bore, its film solved."""
         film, gap, load = self.film, self.gap, force[:2]
         way, position = load / (float(np.hypot(*load)) or 1.0), estimate.copy()
@@ -374,9 +387,14 @@ class Statics:
         if film.speed == 0.0 or float(np.hypot(*position[:2])) > far:
             position[:2] = far * way
             position = gap.lifted(position, film.speed)
-        if gap.narrowest(position) > 0.0:
-            state = solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
-            yield state.u, position
+        if not gap.narrowest(position) > 0.0:
+            return None
+        return solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
+
+    def _carries_there(self, floating: Solution, force: Array) -> bool:
+        """Whether a film off the bore carries the load, which then lies no farther out."""
+        load = force[:2]
+        return self.film.speed == 0.0 or bool(floating.linear.load[:2] @ load >= load @ load)
 
     def _along_path(
         self,

@@ -205,6 +205,8 @@ class Marcher:
             return past
         gap, last = cast("ShapedGap", self.film.gap), past[-1]
         pads = gap.converging(last.position, self.film.speed)
+        if pads.size < 2:  # on one alone a shaft is free to go sideways
+            pads = np.union1d(pads, last.pads)
         if np.array_equal(pads, last.pads):
             return past
         return with_pads(self.film, gap, past, pads, self.past)

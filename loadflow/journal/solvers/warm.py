@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, cast
+from typing import Protocol, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,17 +19,12 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.energy_equation import EnergyEquation
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import WarmGap
-from loadflow.journal.film.temperatures import Temperatures, Warmth
-from loadflow.journal.film_model import Film
+from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import HOTTEST, FilmHeat
-from loadflow.journal.line import Line
-from loadflow.journal.rows import field_row, static_row
-from loadflow.journal.solvers.newton import Solution, no_film, solve_film
+from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
-from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 FilmOf = Callable[["Solution | None"], Solution]
@@ -39,8 +34,7 @@ HeatOf = Callable[[Solution, Array], Warmth]
 
 TOLERANCE, TRIES = 1e-7, 150
 """Largest change of a temperature that is left, K, and the fields of temperature tried."""
-DRIFT = 2e-3
-"""Share of the narrowest gap, by which the shaft moves for a settled stiffness."""
+_DRIFT = 2e-3  # share of the narrowest gap, by which the shaft moves for a settled stiffness
 _DEPTH = 6  # earlier fields that count
 _ACCELERATED, _SHORT = 8, 0.3  # fields after which no more than this share of a change is made
 _CUT, _GROWN, _SHORTEST = 0.5, 1.1, 0.01  # of that share: less after a turn, more else, the least
@@ -50,7 +44,6 @@ _WORSE = 1.5  # of the smallest change so far, that from which the next field go
 _TOO_HOT = 5  # fields in a row that warm beyond the largest temperature: one that settles has one
 _HALVINGS = 4  # steps of the temperature that are halved before the film is given up
 _WARMS = 10.0  # K, that a film must still warm by where it is lost, to have no temperature at all
-_MOST_AROUND = 240  # cells, of a film that is not found on fewer
 
 
 @dataclass(frozen=True)
@@ -69,106 +62,48 @@ class WarmFilm:
     seized: bool = False
 
     @property
+    def film(self) -> Solution:
+        """The film, converged only with its temperatures."""
+        return replace(self.solution, converged=self.converged)
+
+    @property
     def lost(self) -> bool:
         """Whether there is no film at the temperatures that were tried last."""
         return not (self.converged or self.solution.converged)
 
 
-def warm_rows(
+def settled_stiffness(
     bearing: JournalGeometry,
-    options: Film,
-    loads: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> list[dict[str, Any]]:
-    """Rows of `FilmHeatEquilibrium`.
-
-    Raises
-    ------
-    loadflow.errors.SolverError
-        If ``control.strict``, the first load without film or temperatures.
-    """
-    statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
-    each = replace(control, strict=False)
-    around, across = options.cells
-    finer = replace(options, grid=(2 * around, across)) if 2 * around <= _MOST_AROUND else None
-    rows = []
-    last: tuple[Solution, Warmth] | None = None
-    for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-
-        def found_on(
-            statics: Statics,
-            equation: EnergyEquation,
-            last: tuple[Solution, Warmth] | None,
-            index: int = index,
-            omega: float = omega,
-        ) -> WarmFilm:
-            def film_of(before: Solution | None) -> Solution:
-                return statics.solve(index, loads[index], omega, before, each)
-
-            return coupled(equation, film_of, last, equation.alone)
-
-        found = found_on(statics, equation, last)
-        if not found.converged and last is not None:
-            found = found_on(statics, equation, None)
-        used = statics, equation
-        if found.lost and finer is not None:
-            on_more = _prepared(bearing, finer, line, float(np.abs(speeds).max()))
-            better = found_on(*on_more, None)
-            if better.converged or not better.lost or found.warmth is None:
-                found, used = better, on_more
-        if not found.converged and control.strict:
-            why = no_warmth(found) or used[0].message(found.solution, load)
-            raise SolverError(f"load {index}: {why}")
-        row = _row(bearing, *used, load, found, line.whirl)
-        if found.converged and found.warmth is not None:
-            warm = found.solution, found.warmth
-            if equation.heat.stiffness == "settled":
-                row["stiffness"] = _settled_stiffness(bearing, *used, warm, control)
-            if used[0] is statics:
-                last = warm
-        rows.append(row if used[0] is statics else _at_angles(row, statics.film.mesh.angle))
-    return rows
-
-
-def _settled_stiffness(
-    bearing: JournalGeometry,
-    statics: Statics,
-    equation: EnergyEquation,
-    last: tuple[Solution, Warmth],
-    control: Limits,
+    film_at: Callable[[Array], WarmFilm],
+    place: Array,
+    least: float,
+    name: str,
+    strict: bool,
 ) -> Array:
     """Stiffness, N/m, of a shaft that moves so slowly that the temperatures follow.
 
+    By differences of the films with temperatures `film_at` places (m,), clearances, beside its
+    `place`, where the film is `least` thick. All of it is NaN where one of them has none.
+
     Raises
     ------
     loadflow.errors.SolverError
-        If ``control.strict``, a film beside the equilibrium has no temperatures; else all are NaN.
+        If `strict`, a film beside that `name` has no temperatures.
     """
-    film, size = statics.film, statics.gap.size
-    step = DRIFT * film.narrowest(last[0].u, last[0].position)
-    limits = control.tolerance, film.newton_steps(control.max_iterations)
-    columns = np.empty((size, size))
-    for way in range(size):
-        ends = []
-        for sign in (1.0, -1.0):
-            place = last[0].position.copy()
-            place[way] += sign * step
-
-            def film_of(before: Solution | None, place: Array = place) -> Solution:
-                start = film.start() if before is None else before.u
-                return solve_film(film, start, place, np.zeros(size), *limits)
-
-            found = coupled(equation, film_of, last, equation.alone)
-            if not found.converged:
-                if control.strict:
-                    raise SolverError(f"no temperatures beside the equilibrium: {found.why}")
-                return np.full((size, size), np.nan)
-            ends.append(found.solution.linear.load)
-        columns[:, way] = (ends[0] - ends[1]) / (2.0 * step)
-    lengths = np.where(np.arange(size) < 2, 1.0, film.radius)  # those of tilts are arms
-    return columns * np.outer(lengths, lengths) / bearing.clearance
+    size, step = place.size, _DRIFT * least
+    loads = np.empty((2, size, size))
+    for side, way in np.ndindex(2, size):
+        found = film_at(place + step * (1 - 2 * side) * np.eye(size)[way])
+        if found.converged:
+            loads[side, way] = found.solution.linear.load[:size]
+        elif strict:
+            why = no_warmth(found) or "no film"
+            raise SolverError(f"{name}: no temperatures beside its place: {why}")
+        else:
+            return np.full((size, size), np.nan)
+    lengths = np.where(np.arange(size) < 2, 1.0, bearing.radius)  # those of tilts are arms
+    slopes = (loads[0] - loads[1]).T / (2.0 * step)
+    return np.asarray(slopes * np.outer(lengths, lengths) / bearing.clearance)
 
 
 def no_warmth(found: WarmFilm) -> str:
@@ -179,53 +114,6 @@ def no_warmth(found: WarmFilm) -> str:
             "the film carries the load no more"
         )
     return found.why
-
-
-def _at_angles(row: dict[str, Any], angle: Array) -> dict[str, Any]:
-    """The row of a film on more cells, its fields at the angles (nx,) of those asked for."""
-    own = row["angle"]
-
-    def moved(field: Array) -> Array:
-        columns = [np.interp(angle, own, values, period=2.0 * np.pi) for values in field.T]
-        return np.stack(columns, axis=1)
-
-    return row | {name: moved(row[name]) for name in OVER_AREA} | {"angle": angle}
-
-
-def warm_fields(
-    bearing: JournalGeometry,
-    options: Film,
-    places: Array,
-    velocities: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> tuple[list[dict[str, Any]], Array]:
-    """Rows of `FilmHeatField` and axial places of the cells, m; errors as of `warm_rows`."""
-    require(not velocities.any(), "velocity", velocities.tolist(), "0 with heat over the area")
-    statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
-    rows = []
-    for index, omega in enumerate(speeds.tolist()):
-
-        def film_of(before: Solution | None, index: int = index, omega: float = omega) -> Solution:
-            return statics.hold(index, places[index], velocities[index], omega, control)
-
-        found = coupled(equation, film_of, None, equation.alone)
-        if not found.converged and control.strict:
-            why = found.why or statics.message(found.solution)
-            raise SolverError(f"film {index}: {why}")
-        row = field_row(statics.film, statics.gap, _flagged(found))
-        row["eccentricity_ratio"] /= 1.0 + equation.mean_growth / bearing.clearance
-        rows.append(row | heat_columns(equation, found))
-    return rows, statics.film.mesh.z * bearing.radius
-
-
-def _prepared(
-    bearing: JournalGeometry, options: Film, line: Line, rate: float
-) -> tuple[Statics, EnergyEquation]:
-    """Film and energy equation."""
-    statics = Statics(bearing, options, line, rate)
-    return statics, energy_of(statics)
 
 
 def energy_of(statics: Statics) -> EnergyEquation:
@@ -333,101 +221,3 @@ def _shorter(shares: Array, change: Array, before: Array) -> Array:
     """
     turned = change * before < 0.0
     return np.clip(np.where(turned, _CUT * shares, _GROWN * shares), _SHORTEST, _SHORT)
-
-
-def _flagged(found: WarmFilm) -> Solution:
-    """The film, converged only with its temperatures."""
-    return replace(found.solution, converged=found.converged)
-
-
-def _row(
-    bearing: JournalGeometry,
-    statics: Statics,
-    equation: EnergyEquation,
-    load: Array,
-    found: WarmFilm,
-    whirl: float,
-) -> dict[str, Any]:
-    """One row of `FilmHeatEquilibrium`."""
-    heat, film = equation.heat, equation.film
-    mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
-    row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), _flagged(found), whirl)
-    if heat.growth is not None:
-        row |= in_grown_clearances(row, bearing, equation, found)
-    angle, z = film.mesh.angle, film.mesh.z * bearing.radius
-    both = z if z[0] < 0 else np.concatenate([-z[::-1], z])
-    return row | heat_columns(equation, found) | {"angle": angle, "z": both}
-
-
-def in_grown_clearances(
-    row: dict[str, Any], bearing: JournalGeometry, equation: Temperatures, found: WarmFilm
-) -> dict[str, Any]:
-    """What a `row` says in clearances, in those that shaft and shell have as warm as they are."""
-    if not found.converged:
-        return {"clearance": np.nan}
-    share = 1.0 + equation.mean_growth / bearing.clearance
-    reynolds = row["reynolds_number"] * share
-    critical = row["critical_reynolds_number"] / np.sqrt(share)
-    return {
-        "clearance": share * bearing.clearance,
-        "eccentricity_ratio": row["eccentricity_ratio"] / share,
-        "sommerfeld_number": row["sommerfeld_number"] * share**2,
-        "reynolds_number": reynolds,
-        "critical_reynolds_number": critical,
-        "laminar": reynolds < critical,
-    }
-
-
-def heat_columns(equation: Temperatures, found: WarmFilm) -> dict[str, Any]:
-    """What a result says of its temperatures; NaN where there are none."""
-    oil = equation.heat.liquid
-    warmth = found.warmth if found.converged else None
-    said: dict[str, Any]
-    if warmth is None:
-        field, grooves = np.full(equation.shape, np.nan), np.full((equation.grooves, 2), np.nan)
-        shell = growth = field
-        said = dict.fromkeys(_NUMBERS, np.nan)
-    else:
-        field, grooves, shell = warmth.cells, warmth.grooves, warmth.shell
-        growth = equation.growth
-        said = {
-            "friction_power": warmth.friction,
-            "temperature": warmth.mean,
-            "maximum_temperature": max(warmth.hottest, float(field[equation.wet].max())),
-            "outlet_temperature": warmth.side,
-            "shaft_temperature": warmth.shaft,
-            "viscosity": float(oil.viscosity(warmth.mean)),
-            "heat_carried": warmth.carried,
-            "heat_conducted": warmth.conducted,
-            "heat_imbalance": warmth.imbalance,
-        }
-    if equation.mirrored:
-        field, shell, growth = (
-            np.concatenate([x[:, ::-1], x], axis=1) for x in (field, shell, growth)
-        )
-    return said | {
-        "film_temperature": field,
-        "surface_temperature": shell,
-        "thermal_growth": growth,
-        "film_viscosity": np.asarray(oil.viscosity(field)),
-        "trailing_temperature": grooves[:, 0],
-        "leading_temperature": grooves[:, 1],
-        "heat_residual": found.residual,
-        "heat_iterations": found.iterations,
-    }
-
-
-OVER_AREA = ("film_temperature", "surface_temperature", "thermal_growth", "film_viscosity")
-"""What results say of every cell."""
-
-_NUMBERS = (
-    "friction_power",
-    "temperature",
-    "maximum_temperature",
-    "outlet_temperature",
-    "shaft_temperature",
-    "viscosity",
-    "heat_carried",
-    "heat_conducted",
-    "heat_imbalance",
-)

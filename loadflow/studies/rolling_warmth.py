@@ -1,0 +1,144 @@
+"""Temperatures of the rolling bearings of a run, and how they follow its loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+
+from loadflow.errors import SolverError
+from loadflow.quantities import CELSIUS
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import Scene
+from loadflow.stages.rolling import warm_bearing
+from loadflow.studies.compare_factor import grown
+from loadflow.studies.compare_result import Number
+from loadflow.studies.seed_intervals import Groups, interval
+
+HOTTEST = 500.0
+"""Temperature, K, to which viscosities of oils are known."""
+
+_HEAVIER = 1.5  # factor on the loads for the power of them that the warmth follows
+
+
+@dataclass(frozen=True)
+class Warmth:
+    """Temperature of a rolling bearing in each load case.
+
+    Attributes
+    ----------
+    temperature : dict
+        K, by load case.
+    power : dict
+        Of the load, that its rise over the air follows; 0 where the scene states the temperature,
+        infinite where it does not shed more heat.
+    ambient : float
+        Of the air, K.
+    """
+
+    temperature: dict[str, float]
+    power: dict[str, float]
+    ambient: float
+
+    def under(self, case: str, factor: float) -> float:
+        """Temperature, K, with a factor on the loads of a case.
+
+        Examples
+        --------
+        >>> Warmth({"a": 303.0}, {"a": 1.0}, 293.0).under("a", 2.0)
+        313.0
+        """
+        rise, power = self.temperature[case] - self.ambient, self.power[case]
+        if math.isinf(power):
+            return HOTTEST if factor > 1 else self.temperature[case]
+        return min(self.ambient + rise * factor**power, HOTTEST)
+
+
+def warmth_of(
+    scene: Scene, place: str, table: xr.Dataset, samples: Iterable[tuple[str, xr.Dataset]]
+) -> Warmth:
+    """Temperatures of a bearing as its run has them.
+
+    Parameters
+    ----------
+    scene : Scene
+        What was run.
+    place : str
+        Of the bearing.
+    table : xarray.Dataset
+        Rolling bearings of the run, over ``case`` and ``bearing``.
+    samples : iterable
+        Each load case, and some of its samples, whose heat is balanced again under more load.
+    """
+    ambient = scene.friction.ambient_temperature
+    known, powers = {}, {}
+    for case, some in samples:
+        known[case] = float(table["bearing_temperature"].sel(case=case, bearing=place))
+        powers[case] = _power(scene, place, some)
+    return Warmth(known, powers, ambient)
+
+
+def _power(scene: Scene, place: str, some: xr.Dataset) -> float:
+    """Power of the load that the rise over the air follows."""
+    if scene.friction.conductance is None:
+        return 0.0
+    ambient = scene.friction.ambient_temperature
+    rise = warm_bearing(scene, place, some)[1] - ambient
+    if not rise > 0:  # it stands
+        return 0.0
+    try:
+        more = warm_bearing(scene, place, grown(some, _HEAVIER))[1] - ambient
+    except SolverError:
+        return math.inf
+    return math.log(more / rise) / math.log(_HEAVIER)
+
+
+def warmest(
+    options: Friction, table: xr.Dataset, power: xr.DataArray | None, share: np.ndarray
+) -> Number:
+    """Warmest rolling bearing, °C; where it is stated, with the cooling that its losses need.
+
+    Parameters
+    ----------
+    options : Friction
+        Oil and cooling.
+    table : xarray.Dataset
+        Rolling bearings of the run.
+    power : xarray.DataArray or None
+        Mean friction (case, bearing), W.
+    share : ndarray
+        Of the lifetime, of each case.
+    """
+    values = table["bearing_temperature"].transpose("case", "bearing").values - CELSIUS
+    k, b = np.unravel_index(int(np.argmax(values)), values.shape)
+    place, air = str(table["bearing"].values[b]), options.ambient_temperature - CELSIUS
+    if options.conductance is not None:
+        low, high = interval(Groups.of(table), lambda some: float(values[some].max()))
+        note = f"its mean friction and {options.conductance:g} W/K to {air:.0f} °C"
+        case = str(table["case"].values[k])
+        return Number(float(values[k, b]), "°C", low, high, case=case, place=place, note=note)
+    return Number(
+        float(values[k, b]), "°C", note=f"as stated{_needed(options, table, power, share)}"
+    )
+
+
+def _needed(
+    options: Friction, table: xr.Dataset, power: xr.DataArray | None, share: np.ndarray
+) -> str:
+    """Cooling with which losses make a bearing as warm as stated, in words."""
+    rise, air = options.temperature - options.ambient_temperature, options.ambient_temperature
+    if power is None:
+        return ""
+    if rise <= 0:
+        return f": no warmer than the air, {air - CELSIUS:.0f} °C"
+    often = xr.DataArray(share / share.sum(), {"case": table["case"].values}, ["case"])
+    lost = (power.sel(case=table["case"].values) * often).sum("case") / rise
+    told = ", ".join(f"{float(each):.3g}" for each in lost.values)
+    where = ", ".join(map(str, lost["bearing"].values))
+    return (
+        f": the losses give it with a cooling of {told} W/K ({where}) to {air - CELSIUS:.0f} °C; "
+        "friction.conductance balances them"
+    )

@@ -1,0 +1,88 @@
+"""Rolling bearings of a comparison are as warm as their friction and cooling make them."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+from synthetic import cube_file
+
+from loadflow.cube import open_cube
+from loadflow.running.comparison import compare
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import make_scene, read_scene
+from loadflow.stages.rolling import warm_bearing
+from loadflow.studies.compare_factor import grown
+from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_margins import looked_at
+from loadflow.studies.rolling_warmth import HOTTEST, Warmth, warmest, warmth_of
+
+COOLING, AIR = 40.0, 288.15
+
+
+@pytest.fixture(scope="module")
+def cooled(tmp_path_factory):
+    """Folder, scene and table of a run whose bearing finds its temperature, and what is told."""
+    cube = cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", steps=200)
+    data = {
+        "name": "cooled",
+        "loads": {"files": [str(cube)]},
+        "shaft": {"moment": {}},
+        "candidates": {"double-row-tapered": {}},
+        "friction": {"conductance": COOLING, "ambient_temperature": AIR},
+        "as_built": dict.fromkeys(("viscosity", "temperature", "roughness", "alignment"), 0.0),
+    }
+    found = compare(make_scene(data), out=tmp_path_factory.mktemp("runs"))
+    one = found.comparison.candidates[0]
+    folder = found.path / one.folder
+    table = open_cube(folder / "result.h5")["rolling"].to_dataset().load()
+    return folder, read_scene(folder / "scene.toml"), table, one.numbers
+
+
+def test_losses_of_a_comparison_are_what_the_cooling_carries_off(cooled):
+    folder, scene, table, _ = cooled
+    losses = rolling_losses(scene, folder, table).power.sel(bearing="M", case=table["case"])
+    shed = COOLING * (table["bearing_temperature"].sel(bearing="M") - AIR)
+    assert float(shed.min()) > 100.0
+    np.testing.assert_allclose(losses.values, shed.values, rtol=0.05)  # in few samples
+
+
+def test_the_page_tells_the_warmest_bearing_and_what_cools_it(cooled):
+    *_, table, numbers = cooled
+    warm = numbers["bearing_temperature"]
+    assert warm.value == pytest.approx(float(table["bearing_temperature"].max()) - 273.15)
+    assert warm.low <= warm.value <= warm.high
+    assert "40 W/K to 15 °C" in warm.note
+    assert "as warm as its heat balance has it" in numbers["viscosity_ratio"].note
+
+
+@pytest.mark.parametrize(("factor", "share"), [(1.3, 0.2), (2.0, 0.2)])
+def test_the_warmth_under_other_loads_is_that_of_their_heat_balance(cooled, factor, share):
+    folder, scene, table, _ = cooled
+    case, some = next(iter(looked_at(folder, "M")))
+    warmth = warmth_of(scene, "M", table, [(case, some)])
+    asked = warm_bearing(scene, "M", grown(some, factor))[1]
+    stated = warmth.under(case, 1.0)
+    assert stated == float(table["bearing_temperature"].sel(case=case, bearing="M"))
+    # a power of the load; few samples begin some tenths of a kelvin off
+    assert warmth.under(case, factor) == pytest.approx(asked, abs=share * abs(asked - stated) + 0.3)
+
+
+def test_a_stated_temperature_stays_and_one_that_sheds_no_more_heat_ends_where_oils_do():
+    stated = Warmth({"a": 313.15}, {"a": 0.0}, 293.15)
+    assert stated.under("a", 3.0) == stated.under("a", 0.3) == 313.15
+    runaway = Warmth({"a": 313.15}, {"a": math.inf}, 293.15)
+    assert (runaway.under("a", 0.9), runaway.under("a", 1.1)) == (313.15, HOTTEST)
+
+
+def test_a_stated_temperature_tells_the_cooling_with_which_losses_give_it():
+    cases = {"case": ["a", "b"], "bearing": ["N", "N2"]}
+    table = xr.Dataset(
+        {"bearing_temperature": (("case", "bearing"), np.full((2, 2), 313.15))}, cases
+    )
+    power = xr.DataArray([[200.0, 800.0], [600.0, 800.0]], cases, ("case", "bearing"))
+    found = warmest(Friction(), table, power, np.array([0.75, 0.25]))
+    assert found.value == pytest.approx(40.0)
+    assert "cooling of 15, 40 W/K (N, N2) to 20 °C" in found.note
+    cold = warmest(Friction(temperature=283.15), table, power, np.ones(2))
+    assert "no warmer than the air" in cold.note
