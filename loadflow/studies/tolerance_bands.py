@@ -18,7 +18,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
-from loadflow.stages.bores import against_bore, follow_the_shaft, following
+from loadflow.stages.bores import against_bore, in_bore, turned_bores
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.friction import least_film_parameter
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
@@ -101,9 +101,10 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
 
 
 def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:
-    """The spectrum with the `alignment` of the bores that follow the shaft, in its mean."""
-    places = (place for place in follow_the_shaft(scene) if place in spectrum.children)
-    return with_places(spectrum, {p: following(spectrum[p].to_dataset()) for p in places})
+    """The spectrum with the `alignment` of bores that are turned."""
+    places = (place for place in turned_bores(scene) if place in spectrum.children)
+    turned = {p: in_bore(spectrum[p].to_dataset(), scene.journal.at(p)) for p in places}
+    return with_places(spectrum, turned)
 
 
 def _bearings(run: Finished) -> Candidate:
