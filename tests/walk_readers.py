@@ -144,6 +144,8 @@ def films(scene):
 
 
 def _journal(scene):
+    if any(scene.journal.at(name).seat is not None for name in scene.journal.bearings):
+        yield make_plan(scene).errors["journal.film"]
     tree = films(scene)
     yield tree
     yield from _judged(scene, journal, tree)
@@ -163,6 +165,8 @@ def _rolling(scene):
 
 
 def _thrust(scene):
+    if any(one.seat is not None for one in scene.thrust.collars.values()):
+        yield make_plan(scene).errors["thrust.film"]
     tree = thrust.films(scene, ONE, inputs(scene))
     yield tree
     yield from _judged(scene, thrust, tree)

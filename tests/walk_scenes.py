@@ -180,6 +180,16 @@ BASES = {
                 "half_angle": 0.5, "slant": [1.59, 2.59], "clearance": 2e-4, "pads": 3,
                 "pad_angle": 1.9, "profile": {"kind": "taper", "taper": 8e-5}}}}}},
     },
+    "bearings on seats": {
+        "shaft": {"two_point": {"beam": {}}}, "results": ["journal.film", "thrust.film"],
+        "bearings": {
+            "N": {"kind": "journal", "self_aligning": True, "seat": {
+                "kind": "spherical", "friction": 0.02, "radius": 1.9}},
+            "N2": {"kind": "thrust", "self_aligning": True, "seat": {
+                "kind": "elastic", "stiffness": 1e6}, "geometry": {
+                "pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7,
+                "taper": 1e-4}}},
+    },
     "three points": {"shaft": {"three_point": {}}, "journal": FILM},
     "integrated": {"shaft": {"integrated": {}}, "journal": FILM},
     "yaw": {
@@ -406,6 +416,7 @@ WALKED = {
     "thrust collar": ("thrust",),
     "warm collar": ("thrust.motion", "thrust.tilt", "thrust.bearings.N2.heat"),
     "pair of cones": ("thrust",),
+    "bearings on seats": ("journal.seat", "thrust.bearings.N2.seat"),
     "three points": ("shaft",),
     "integrated": ("shaft",),
     "yaw": ("shaft.yaw", "rolling.oscillation"),
@@ -511,6 +522,7 @@ OTHERS = {
     "journal.own.N2.heat": [{"oil": "mineral-vg-320"}],
     "design.crown": [{}],
     "design.keys.geometry.width.values": [[1.0, 2.0]],
+    "….seat": [{"kind": "elastic", "stiffness": 1e7}],
     "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}, {"bore": 0.9, "outside_diameter": 2.2}],
     "rolling.further.0.mounting": [{"inner_temperature": 300.0}],
     "rolling.further.0.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],

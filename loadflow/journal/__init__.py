@@ -9,6 +9,7 @@
 `pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         how the bore runs around; `relief`: what is cut into it or deforms it
+`seat`           seats on which shells and pads align themselves
 `shells`         elastic shells; `housings`: those in a housing on feet or a flange
 `contact`        asperities; `stribeck`: friction over speed
 `crowning`       best crown for a spectrum of loads

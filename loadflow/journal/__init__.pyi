@@ -49,6 +49,8 @@ from .relief import Recess as Recess
 from .results import Equilibrium as Equilibrium
 from .results import FilmField as FilmField
 from .results import WarmEquilibrium as WarmEquilibrium
+from .seat import ElasticSeat as ElasticSeat
+from .seat import SphericalSeat as SphericalSeat
 from .shapes import Arc as Arc
 from .shapes import Cylindrical as Cylindrical
 from .shapes import Lobes as Lobes

@@ -247,10 +247,11 @@ class PadThrust(PadBearing):
         return _LOAD_NUMBER * drag * radius * length**2 * across * count * narrow**2
 
     def _idle(self, assembly: Assembly, state: AssemblyState, gap: float) -> bool:
-        """Whether the films carry nothing but rounding, as those of flat pads."""
+        """Whether one of the films carries nothing but rounding, as that of a flat pad."""
         film = assembly.members[0].film
         ordinary = self._ordinary(film.viscosity * abs(film.speed)) / gap**2
-        return _axial(assembly, state) <= _FAINT * ordinary
+        least = min(-float(part[2]) for pads in assembly.loads(state) for part in pads)
+        return least <= _FAINT * ordinary / len(self.row.centres)
 
     def _assembly(
         self, film: Film, gap: float, speed: float, velocity: float, alike: bool
@@ -268,7 +269,8 @@ class PadThrust(PadBearing):
         speed: float,
         limits: Limits,
     ) -> AssemblyState:
-        """Films at a given position; pads that tilt carry, if they can."""
+        """Films at a given position; pads that tilt carry, as many as can."""
+        states: list[AssemblyState] = []
         moving = np.zeros(BODY)
         moving[2] = velocity
         for lift in LIFTS if self.row.tilting else LIFTS[:1]:
@@ -282,8 +284,9 @@ class PadThrust(PadBearing):
             start = AssemblyState(position, moving, start.members)
             state = assembly.solve(start, np.zeros(BODY), HELD, limits)
             if state.converged and not self._idle(assembly, state, gap):
-                break
-        return state
+                return state
+            states.append(state)
+        return max(states, key=lambda one: (one.converged, _axial(assembly, one)))
 
     def _result(
         self, assembly: Assembly, state: AssemblyState, base: float, speed: float

@@ -28,6 +28,7 @@ from loadflow.scene.films import HeatTable, Law, RungName
 from loadflow.scene.limits import JournalLimits
 from loadflow.scene.messages import message
 from loadflow.scene.places import SHARED
+from loadflow.scene.seats import SeatTable, check_seat
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
@@ -63,7 +64,8 @@ class Journal(Section, BaseModel):
     was aligned with the shaft as it lies at its usual load: in steady operation over the lifetime,
     or in the mean of given series. A ``self_aligning`` bearing has a shell on a support that turns
     with the shaft, such as a spherical seat or a ring of elastic or tilting pieces: however the
-    shaft tilts, it lies straight in it, and ``tilt`` and ``alignment`` say nothing of it.
+    shaft tilts, it lies straight in it, and ``tilt`` and ``alignment`` say nothing of it. ``seat``
+    is what the support resists with, friction or stiffness: plans then count what that leaves.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -112,6 +114,7 @@ class Journal(Section, BaseModel):
     tilt: bool = False
     alignment: Literal["mean"] | tuple[Slope, Slope] = (0.0, 0.0)
     self_aligning: bool = False
+    seat: SeatTable | None = None
     shell: Shell | None = None
     contact: Contact | None = None
     turbulence: Turbulence | None = None
@@ -144,6 +147,35 @@ class Journal(Section, BaseModel):
     def tilting(self) -> list[str]:
         """Bearings in which the shaft may tilt: all but those that are `self_aligning`."""
         return [name for name in self.bearings if not self.at(name).self_aligning]
+
+    @property
+    def on_seats(self) -> list[str]:
+        """Bearings that are `self_aligning`, of which is stated what they stand on."""
+        return [name for name in self.bearings if self.at(name).seat is not None]
+
+    def check_moment(self, place: str, what: str) -> None:
+        """Refuse a support that is to take the moment of a film which has none.
+
+        Raises
+        ------
+        ValueError
+            Naming it by `what`, and what helps.
+        """
+        if not self.tilt:
+            raise ValueError(
+                f"{what}: only a tilted film takes a moment; set journal.tilt = true, or leave out "
+                "takes_moment"
+            )
+        if place in self.on_seats and not (self.in_motion and self.rung == "reduced"):
+            raise ValueError(
+                f"{what}: what a seat holds is followed in motion alone; set journal.motion = "
+                '"transient" and rung = "reduced"'
+            )
+
+    @model_validator(mode="after")
+    def _seat_of_what_aligns_itself(self) -> Self:
+        check_seat(self, 0.5 * self.geometry.diameter)
+        return self
 
     @model_validator(mode="after")
     def _smoother_than_the_gap(self) -> Self:

@@ -249,16 +249,13 @@ class Scene(Section, WithFittingBeams, BaseModel):
                 raise ValueError(
                     f"{what}: the scene has {support.stiffness} bearings at {', '.join(have)} only"
                 )
-            aligning = name not in self.journal.tilting
+            aligning = name not in (*self.journal.tilting, *self.journal.on_seats)
             if support.stiffness == "rolling":
                 aligning = not self.rolling.geometries[name].takes_moment
             if support.takes_moment and aligning:
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
-            if support.takes_moment and support.stiffness == "journal" and not self.journal.tilt:
-                raise ValueError(
-                    f"{what} and takes_moment = true: only a tilted film takes a moment; set "
-                    "journal.tilt = true, or leave out takes_moment"
-                )
+            if support.takes_moment and support.stiffness == "journal":
+                self.journal.check_moment(name, f"{what} and takes_moment = true")
         return self
 
     @property

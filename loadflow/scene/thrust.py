@@ -13,6 +13,7 @@ from loadflow.journal import DoubleThrustBearing, DoubleThrustResult, Film, Lubr
 from loadflow.journal.collar_series import CollarSeries
 from loadflow.journal.thrust_curves import CollarCurves, CollarFilms, gives_way
 from loadflow.scene.axial import Array, AxialBearing, Cells, ConePair, Lands, Positive
+from loadflow.scene.seats import SeatTable, check_seat
 from loadflow.scene.section import Section, told_apart
 
 
@@ -26,7 +27,8 @@ class ThrustCollar(AxialBearing):
     row has its own temperature, at rest that of each sample, in motion one for the whole series.
 
     ``self_aligning`` pads stand on a carrier that turns with the collar: however the shaft tilts,
-    their films stay aligned, and give it no moment.
+    their films stay aligned, and give it no moment. ``seat`` is what the carrier resists with,
+    friction or stiffness: plans then count what that leaves of the slope in the films.
     """
 
     kind: Literal["thrust"] = "thrust"
@@ -35,11 +37,17 @@ class ThrustCollar(AxialBearing):
     play: Positive = 4e-4
     heat: PadHeat | None = None
     self_aligning: bool = False
+    seat: SeatTable | None = None
 
     @model_validator(mode="after")
     def _one_oil(self) -> Self:
         if self.heat is not None and "lubricant" in self.changed:
             raise ValueError("lubricant: follows from heat.oil and its temperature; leave it out")
+        return self
+
+    @model_validator(mode="after")
+    def _seat_of_what_aligns_itself(self) -> Self:
+        check_seat(self)
         return self
 
     @property

@@ -189,6 +189,8 @@ class Toleranced:
                 told = f"tolerances.{place}.{key} = {tolerance:g}"
                 if not (math.isfinite(tolerance) and tolerance > 0):
                     raise ValueError(f"{told}: must be > 0")
+                if key.split(".")[0] == "seat":
+                    raise ValueError(f"{told}: no film has its seat, whose effect plans estimate")
                 for end in (-1, 1):
                     try:
                         self._moved(place, key, end * tolerance)

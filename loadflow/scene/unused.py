@@ -311,7 +311,8 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
-    if journal.tilt and not scene.journal.tilting:
+    seated = {name for name, one in scene.shaft.coupled.items() if one.takes_moment}
+    if journal.tilt and not scene.journal.tilting and not seated & {*scene.journal.on_seats}:
         yield "tilt", "the bearings are self_aligning"
     if journal.self_aligning:
         yield "alignment", "the bearing is self_aligning"

@@ -20,6 +20,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
+from loadflow.scene.seats import without_seat
 from loadflow.stages.film_kept import RESOLVED, kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
 from loadflow.stages.film_past import AT_REST, past_of
@@ -220,7 +221,7 @@ def _moving(
     together: tuple[xr.Dataset, float | None] | None = None,
 ) -> xr.Dataset:
     """Film along the series, from the first sample on in which the surfaces need not touch."""
-    options = scene.journal.at(bearing)
+    options = scene.journal.at(bearing).model_copy(update={"tilt": True} if together else {})
     held, warm = options, None
     if parked and isinstance(options.heat, Heat) and options.heat.stands_as_it_enters:
         # what it loses as it slips in its brake warms no oil; a balance is sought in vain for long
@@ -442,4 +443,7 @@ STAGE = Stage(
     summarise=summary,
     warnings=warnings,
     work=_work,
+    left_out=lambda scene: without_seat(
+        "journal", {name: scene.journal.at(name) for name in scene.journal.bearings}
+    ),
 )

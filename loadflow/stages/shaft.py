@@ -21,7 +21,13 @@ from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.bores import ALIGNED, bores, turned_bores, with_bores
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import labelled
-from loadflow.stages.shaft_in_films import STILL, move_together, runs, shaft_on_films
+from loadflow.stages.shaft_in_films import (
+    STILL,
+    move_together,
+    runs,
+    seats_felt,
+    shaft_on_films,
+)
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
@@ -51,6 +57,8 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     parts = [
         _with_films(scene, concept, series, tilt)
         if move_together(scene, concept) and runs(speed)
+        else _freely(concept, series, tilt)
+        if seats_felt(scene, concept)
         else _suspended(scene, concept, force, moment, speed, tilt)
         for concept in scene.shaft.concepts
     ]
@@ -96,6 +104,12 @@ def _with_films(scene: Scene, concept: Concept, series: xr.Dataset, tilt: float)
             ValidityWarning,
             stacklevel=2,
         )
+    return _freely(concept, series, tilt)
+
+
+def _freely(concept: Concept, series: xr.Dataset, tilt: float) -> xr.Dataset:
+    """A shaft on rigid bearings that it turns freely in, in no sample on its own ones."""
+    assert concept.beam is not None
     loads = (
         series[name].transpose("axis", "time").values.astype(float)
         for name in ("hub_force", "hub_moment")

@@ -21,7 +21,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
-from loadflow.journal.models.shared_path import Lying, SharedPath, follow_shared
+from loadflow.journal.models.shared_path import Lying, Seats, SharedPath, follow_shared
 from loadflow.numerics.convergence import Convergence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
@@ -70,8 +70,14 @@ def move_together(scene: Scene, concept: Concept) -> bool:
     films = [support.stiffness == "journal" for support in concept.beam.supports]
     if films != [True, True] or not scene.journal.tilt or scene.journal.rung != "reduced":
         return False
-    tilting = set(concept.bearings) <= {*scene.journal.tilting}
+    tilting = set(concept.bearings) <= {*scene.journal.tilting, *seats_felt(scene, concept)}
     return tilting and all(_followable(scene.journal.at(name)) for name in concept.bearings)
+
+
+def seats_felt(scene: Scene, concept: Concept) -> list[str]:
+    """Bearings of a suspension whose seats hold the shaft: their supports take a moment."""
+    felt = {name for name, support in scene.shaft.coupled.items() if support.takes_moment}
+    return [name for name in concept.bearings if name in scene.journal.on_seats and name in felt]
 
 
 def _followable(options: Journal) -> bool:
@@ -134,7 +140,8 @@ def films_together(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
     """
     loads = loads.isel(time=_every(scene, loads))
     series, turned = _series(loads), bores(scene)
-    bore = to_film(np.array([turned[name] for name in concept.bearings]))
+    lined = [turned[name] * (name in scene.journal.tilting) for name in concept.bearings]
+    bore = to_film(np.array(lined))  # a shell that turns in its seat is never out of line
     past = past_of(scene, loads)
     asked = [scene.shaft.model_dump_json(), scene.journal.model_dump_json(), concept, tilt, past]
     told = repr(asked).encode() + b"".join(part.tobytes() for part in (*series, bore))
@@ -213,6 +220,7 @@ def _followed(
         lying = Lying(
             series["force"], series["tilt"], series["bend"], *by, felt=shaft.felt,
             touching=np.array([options.contact_film for options in bearings]),
+            seats=_seats(bearings, series["force"]),
         )  # fmt: skip
         found = follow_shared(
             geometries, films, series["time"], series["speed"], lying, control, begins
@@ -226,6 +234,19 @@ def _followed(
         )
 
     return FilmsTogether(after_past(path, past, time), warm)
+
+
+def _seats(bearings: list[Journal], force: Floats) -> Seats | None:
+    """What holds the shells of both films under loads (n, 2, 2), N; None if neither has a seat."""
+    found = [options.seat for options in bearings]
+    if found == [None, None]:
+        return None
+    load = np.hypot(force[..., 0], force[..., 1])
+    slip = np.full(load.shape, np.inf)
+    for k, seat in enumerate(found):
+        if seat is not None:
+            slip[:, k] = seat.slips_at(load[:, k])
+    return Seats(np.array([np.inf if seat is None else seat.stiffness for seat in found]), slip)
 
 
 def _film_of(

@@ -14,6 +14,7 @@ from loadflow.journal.thrust_curves import CollarFilms
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.seats import without_seat
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.bores import against_bore
 from loadflow.stages.film_summary import summary
@@ -337,10 +338,11 @@ RUNGS = Rungs(
 
 
 def _left_out(scene: Scene) -> dict[str, str]:
-    """What films of cones do not know; of collars the effects say so."""
+    """What films of cones do not know, and seats that are not stated; else the effects say so."""
+    seats = without_seat("thrust", scene.thrust.collars)
     if not scene.wants("thrust") or len(scene.thrust.collars) == len(scene.thrust.bearings):
-        return {}
-    return {
+        return seats
+    return seats | {
         "thrust: motion, heat, contact of cones": "their films are solved at rest, at one "
         "temperature, without asperities",
     }

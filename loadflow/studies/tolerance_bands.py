@@ -101,10 +101,12 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
 
 
 def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:
-    """The spectrum with the `alignment` of bores that are turned."""
+    """The spectrum with the `alignment` of bores that are turned, or follow the shaft."""
     places = (place for place in turned_bores(scene) if place in spectrum.children)
-    turned = {p: in_bore(spectrum[p].to_dataset(), scene.journal.at(p)) for p in places}
-    return with_places(spectrum, turned)
+    journal = scene.journal
+    return with_places(
+        spectrum, {p: in_bore(spectrum[p].to_dataset(), journal.at(p)) for p in places}
+    )
 
 
 def _bearings(run: Finished) -> Candidate:

@@ -133,6 +133,16 @@ def test_pads_that_follow_the_runner_lose_less_film_to_its_tilt():
     assert lost[1] < lost[0]
 
 
+@pytest.mark.parametrize("share", [1e-3, 1e-2, 0.1])
+def test_all_pads_carry_a_tilted_runner_whatever_its_gap(share):
+    """Force times gap² is one number; pads that lie flat and carry nothing are another answer."""
+    found = [
+        gap**2 * TILTING.pressure(gap, 1.2, FILM, tilt=(0.0, -share * gap / 1.9)).force
+        for gap in (5e-5, 2e-4, 2.5e-4, 3e-4, 5e-4)
+    ]
+    np.testing.assert_allclose(found, found[0], rtol=1e-6)
+
+
 def test_each_sample_at_rest_has_the_heat_balance_of_the_grid():
     found = CollarSeries(COLLAR, WARM, CONTACT).equilibrium(FORCES, SPEEDS)
     for k in range(4):

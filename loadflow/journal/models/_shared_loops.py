@@ -38,6 +38,7 @@ from loadflow.journal.models._composed_loops import (
 from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
@@ -49,7 +50,7 @@ Array = NDArray[np.float64]
 
 
 COORDINATES = 4
-SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films
+SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films; then those of seats
 
 
 class Side(NamedTuple):
@@ -61,8 +62,10 @@ class Side(NamedTuple):
         Its constants.
     work : ComposedWork
         Its work arrays, which hold the film at the first time.
-    lies : array (4, SHAFT)
-        Place of the shaft in it by the coordinates, and by the moments of both films.
+    lies : array (4, m)
+        Place of the shaft in it by the coordinates, and by the moments of both films and seats.
+    slipped : array (4,)
+        What the shell has slid in its seat, in the units of the place: two turns.
     felt : array (4, SHAFT)
         What the coordinates feel of its load, and which of it these moments are.
     given : array (n, 4)
@@ -89,6 +92,7 @@ class Side(NamedTuple):
     film: Composed
     work: ComposedWork
     lies: Array
+    slipped: Array
     felt: Array
     given: Array
     bend: Array
@@ -109,12 +113,15 @@ class Shared(NamedTuple):
     ----------
     load : array (n, COORDINATES)
         What the coordinates are to feel, N.
-    at, before, new, step, missing : array (SHAFT,)
+    at, before, new, step, missing : array (m,)
         Unknowns of the shaft at the last two times and at the next, their step, and what is missing
         in their equations, N. First the coordinates, then the moments of the films, N, over the
-        radius of each.
-    system : array (SHAFT, SHAFT + 1)
+        radius of each; with seats, moments that these would hold if they did not slide.
+    system : array (m, m + 1)
         Linear system of a step.
+    slip, held : array (n, 2), array (2,)
+        Moment at which each seat slides, N, over the radius of its film; share of its own one that
+        it holds. Without seats (0, 2) and (0,).
     steps : array (1,)
         Step to the last time, s.
     told : array (2,)
@@ -128,6 +135,8 @@ class Shared(NamedTuple):
     step: Array
     missing: Array
     system: Array
+    slip: Array
+    held: Array
     steps: Array
     told: Array
 
@@ -136,8 +145,9 @@ class Shared(NamedTuple):
 def _lay(side, q, unknowns, n, to):
     """Place `q` (4,) of the shaft in a film by its unknowns, between the times n − 1 and n."""
     for a in range(4):
-        q[a] = side.given[n - 1, a] + to * (side.given[n, a] - side.given[n - 1, a])
-        for b in range(SHAFT):
+        last, next_ = side.given[n - 1, a], side.given[n, a]
+        q[a] = last + to * (next_ - last) - side.slipped[a]
+        for b in range(unknowns.size):
             q[a] += side.lies[a, b] * unknowns[b]
 
 
@@ -146,7 +156,7 @@ def _move(side, step, share):
     """Step of a film's place by a share of the shaft's."""
     for a in range(4):
         side.work.step[a] = 0.0
-        for b in range(SHAFT):
+        for b in range(step.size):
             side.work.step[a] += share * side.lies[a, b] * step[b]
 
 
@@ -190,7 +200,7 @@ def _residual(one, other, shared, speed, rate, scale):
             for a in range(4):
                 shared.missing[b] -= side.felt[a, b] * (work.load[a] + work.touch[0, a])
     total = 0.0
-    for b in range(SHAFT):
+    for b in range(shared.missing.size):
         total += shared.missing[b] ** 2
     return max(residual, np.sqrt(total) / scale)
 
@@ -198,12 +208,11 @@ def _residual(one, other, shared, speed, rate, scale):
 @once
 def _solve(one, other, shared, speed, rate, fresh):
     """Newton step of the shaft into `step`, and of both films into their columns; if there is."""
-    system, size = shared.system, 4
+    system, size, many = shared.system, 4, shared.missing.size
     system[:] = 0.0
-    for b in range(SHAFT):
-        system[b, SHAFT] = -shared.missing[b]
-    for b in range(COORDINATES, SHAFT):
-        system[b, b] = 1.0
+    for b in range(many):
+        system[b, many] = -shared.missing[b]
+    hold_slopes(shared, SHAFT)
     for k in range(2):
         side = one if k == 0 else other
         film, work = side.film, side.work
@@ -223,15 +232,15 @@ def _solve(one, other, shared, speed, rate, fresh):
             for a in range(size):
                 if side.felt[a, c] == 0.0:
                     continue
-                system[c, SHAFT] -= side.felt[a, c] * work.carried[0, a]
+                system[c, many] -= side.felt[a, c] * work.carried[0, a]
                 for b in range(size):
                     slope = work.carried[1 + b, a] - work.touch[1 + b, a]
-                    for d in range(SHAFT):
+                    for d in range(many):
                         system[c, d] += side.felt[a, c] * slope * side.lies[b, d]
-    if not solve_system(system, SHAFT):
+    if not solve_system(system, many):
         return False
-    for b in range(SHAFT):
-        shared.step[b] = system[b, SHAFT]
+    for b in range(many):
+        shared.step[b] = system[b, many]
     return True
 
 
@@ -257,7 +266,7 @@ def _shortened(one, other, shared):
             share *= share_of_step(film, work, way[0], way[1], way[2], way[3], KEPT)
         elif film.give == 0.0:
             share *= share_inside(film, work, work.step)
-    for b in range(SHAFT):
+    for b in range(shared.step.size):
         shared.step[b] *= share
 
 
@@ -289,7 +298,7 @@ def _advance(one, other, shared):
             if film.give > 0.0:
                 least = least_one if k == 0 else least_other
                 open_yet = open_yet and narrowest(film, work) >= least
-        for b in range(SHAFT):
+        for b in range(shared.new.size):
             shared.new[b] += (share - done) * shared.step[b]
         done = share
         if open_yet or share < ROOM:
@@ -321,6 +330,7 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
             shared.missing[b] += to * (shared.load[n, b] - shared.load[n - 1, b])
         for b in range(COORDINATES, SHAFT):
             shared.missing[b] = shared.new[b]
+        hold(shared, SHAFT, n, to)
         residual = _residual(one, other, shared, speed, rate, scale)
         if residual < tolerance:
             return residual, spent, True
@@ -383,7 +393,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
             rate, weight, weight_before, ratio = two_steps(step, step_before)
             omega = speed[n - 1] + to * (speed[n] - speed[n - 1])
             ahead = step_before > 0.0
-            for b in range(SHAFT):
+            for b in range(shared.new.size):
                 shared.new[b] = shared.at[b]
                 if ahead:
                     shared.new[b] += ratio * (shared.at[b] - shared.before[b])
@@ -396,7 +406,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                     work.bend[a] += to * (side.bend[n, a] - side.bend[n - 1, a])
                 ahead = ahead and (film.give > 0.0 or leaves_room(film, work, side.place, side.new))
             if not ahead:
-                for b in range(SHAFT):
+                for b in range(shared.new.size):
                     shared.new[b] = shared.at[b]
             for k in range(2):
                 side = one if k == 0 else other
@@ -419,7 +429,8 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                         side.past[a], side.place[a] = side.place[a], side.new[a]
                     for a in range(2):
                         side.past[4 + a], side.past[6 + a] = side.past[6 + a], side.work.bend[a]
-                for b in range(SHAFT):
+                slide(one, other, shared, SHAFT)
+                for b in range(shared.new.size):
                     shared.before[b], shared.at[b] = shared.at[b], shared.new[b]
                 step_before, share, done = step, min(2.0 * share, 1.0), to
                 shared.steps[0] = step

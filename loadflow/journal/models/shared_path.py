@@ -51,7 +51,23 @@ _LONG = 48  # samples that go on together with few points: more are gone through
 _HOLDS = 4.0  # times the largest load, at which a gap at a bearing end would be closed
 _SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)  # of the way out of the middle
 _ROOM = 0.1  # gap, clearances, that the first place leaves at bearing ends
+_STICKS = 1e-3  # share of the clearance that a seat gives way by at a bearing end before it slides
 _NOW = np.zeros(1)
+
+
+class Seats(NamedTuple):
+    """What holds the shells of both films as they turn with the shaft.
+
+    Attributes
+    ----------
+    stiffness : array (2,)
+        Moment over the turn of each, N m/rad; infinite where it turns as it slides alone.
+    slip : array (n, 2)
+        Moment at which it slides, N m; infinite where it does not.
+    """
+
+    stiffness: Array
+    slip: Array
 
 
 class Lying(NamedTuple):
@@ -73,6 +89,8 @@ class Lying(NamedTuple):
         Whether the shaft feels the moment of each film.
     touching : array (2,)
         Gap, m, below which shaft and shell touch at a bearing end.
+    seats : Seats, optional
+        Of shells that turn with the shaft; aligned with it at the first time.
     """
 
     force: Array
@@ -82,6 +100,7 @@ class Lying(NamedTuple):
     by_moment: Array
     felt: NDArray[np.bool_]
     touching: Array
+    seats: Seats | None = None
 
 
 @dataclass(frozen=True)
@@ -185,10 +204,13 @@ class _March:
         self.sides = [_side(k, first, lying, temperature[k]) for k in range(2)]
         felt = [side.felt[:2, :COORDINATES] for side in self.sides]
         load = sum(lying.force[:, k] @ felt[k] for k in range(2))
-        now, before, new, step, missing = np.zeros((5, SHAFT))
+        many = self.sides[0].lies.shape[1]
+        slip = np.zeros((0, 2)) if lying.seats is None else lying.seats.slip
+        slip = slip / [bearing.radius for bearing in bearings]
+        now, before, new, step, missing = np.zeros((5, many))
         self.shared = Shared(
-            np.array(load), now, before, new, step, missing,
-            system=np.zeros((SHAFT, SHAFT + 1)), steps=np.zeros(1), told=np.zeros(2),
+            np.array(load), now, before, new, step, missing, system=np.zeros((many, many + 1)),
+            slip=slip, held=np.ones((many - SHAFT) // 2), steps=np.zeros(1), told=np.zeros(2),
         )  # fmt: skip
         self.before: list[tuple[Array, Array]] = []
 
@@ -221,6 +243,8 @@ class _March:
             self.shared.at[:COORDINATES] = share * np.concatenate(far)
             for side in self.sides:
                 side.place[:] = side.lies @ self.shared.at + side.given[0]
+            for k in range(self.shared.held.size):
+                self._follows(k)
             both = zip(self.sides, models)
             if min(m.least(s.place[None], s.bend[:1])[0] for s, m in both) > _ROOM:
                 break
@@ -229,6 +253,17 @@ class _March:
             side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
         self.shared.before[:] = self.shared.at
 
+    def _follows(self, k: int) -> None:
+        """Turn the shell of a film with the shaft, at the first time: elastic, or slid so far."""
+        side, own = self.sides[k], SHAFT + 2 * k
+        give, turned = -side.lies[2, own], side.place[2:].copy()
+        if np.isinf(self.shared.slip[0, k]) and give > 0.0:
+            self.shared.at[own : own + 2] += turned / give
+            side.place[2:] = 0.0
+        elif give > 0.0:
+            side.slipped[2:] += turned
+            side.place[2:] = 0.0
+
     def goes_on(self, levels: list[int], begin: int, end: int) -> int:
         """Go through the samples `begin` … `end` with points of `levels`; how many are done."""
         for k, level in enumerate(levels):
@@ -236,7 +271,14 @@ class _March:
                 self._take(k, level)
         kept = [*self.shared[1:3], self.shared.steps]
         for side in self.sides:
-            kept += [side.place, side.past, side.thin, side.work.last, side.work.before]
+            kept += [
+                side.place,
+                side.past,
+                side.thin,
+                side.work.last,
+                side.work.before,
+                side.slipped,
+            ]
         self.before = [(values, values.copy()) for values in kept]
         first, second = self.sides
         return follow(
@@ -307,15 +349,22 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     """One film, in the units of the loops; coordinates are the positions in clearances."""
     model, count = models[number], len(lying.tilt)
     turn = model.bearing.radius / model.bearing.clearance
-    given, lies = np.zeros((count, 4)), np.zeros((4, SHAFT))
+    seated = 0 if lying.seats is None else len(models)
+    given, lies = np.zeros((count, 4)), np.zeros((4, SHAFT + 2 * seated))
     given[:, 2:] = lying.tilt[:, number] * turn
     lies[[0, 1], [2 * number, 2 * number + 1]] = 1.0
     for k, other in enumerate(models):
         places, moments = (slice(first + 2 * k, first + 2 * k + 2) for first in (0, COORDINATES))
         lies[2:, places] = turn * other.bearing.clearance * lying.by_position[number, :, k]
         lies[2:, moments] = turn * other.bearing.radius * lying.by_moment[number, :, k]
-    felt = lies * model.bearing.clearance / models[0].bearing.clearance
+    felt = lies[:, :SHAFT] * model.bearing.clearance / models[0].bearing.clearance
     felt[:, COORDINATES:] = 0.0
+    if lying.seats is not None:
+        held = SHAFT + 2 * number
+        give = _give(
+            model.bearing, float(lying.seats.stiffness[number]), lying.seats.slip[:, number]
+        )
+        lies[[2, 3], [held, held + 1]] = -turn * model.bearing.radius * give
     if not lying.felt[number]:
         felt[2:] = 0.0
     own = COORDINATES + 2 * number
@@ -327,12 +376,20 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
     return Side(
-        film=film, work=model.work, lies=lies, felt=felt, given=given,
+        film=film, work=model.work, lies=lies, slipped=np.zeros(4), felt=felt, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
         thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
     )  # fmt: skip
+
+
+def _give(bearing: JournalGeometry, stiffness: float, slip: Array) -> float:
+    """Turn of a seat by moment, rad/(N m); one that slides gives way a little before it does."""
+    most = float(slip.max())
+    if np.isfinite(stiffness) or np.isinf(most):
+        return 1.0 / stiffness
+    return _STICKS * 2.0 * bearing.clearance / bearing.width / most
 
 
 def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:

@@ -26,6 +26,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.estimate import NEAR, first_position
+from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
     APART,
     has_touched,
@@ -51,7 +52,6 @@ _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have mo
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _LONG = 0.03  # step of the load below which its path is followed instead
-_FLOATING = 0.5  # share of the way to the bore at which a shaft is sought that its supply carries
 
 
 class Statics:
@@ -365,8 +365,8 @@ class Statics:
             reach = math.inf if film.elastic else NEAR * film.narrowest(last.u, position)
             if math.hypot(*(estimate - last.estimate)[:2]) < reach:
                 yield last.u, position
-        floating = self._floating(force, estimate) if lifts and fed else None
-        afloat = floating is not None and self._carries_there(floating, force)
+        floating = floating_film(self.film, self.gap, force, estimate) if lifts and fed else None
+        afloat = floating is not None and carries_there(floating, self.film, force)
         if floating is not None and afloat:
             yield floating.u, floating.position
         still = np.zeros(gap.size)
@@ -375,26 +375,9 @@ class Statics:
         else:
             yield film.start(), estimate
         if lifts and not fed:
-            floating = self._floating(force, estimate)
+            floating = floating_film(self.film, self.gap, force, estimate)
         if floating is not None and not afloat:
             yield floating.u, floating.position
-
-    def _floating(self, force: Array, estimate: Array) -> Solution | None:
-        """Start for a shaft that its supply carries: well off the bore, its film solved."""
-        film, gap, load = self.film, self.gap, force[:2]
-        way, position = load / (float(np.hypot(*load)) or 1.0), estimate.copy()
-        far = _FLOATING * min(gap.reach(way, 0.0), 1.0)
-        if film.speed == 0.0 or float(np.hypot(*position[:2])) > far:
-            position[:2] = far * way
-            position = gap.lifted(position, film.speed)
-        if not gap.narrowest(position) > 0.0:
-            return None
-        return solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
-
-    def _carries_there(self, floating: Solution, force: Array) -> bool:
-        """Whether a film off the bore carries the load, which then lies no farther out."""
-        load = force[:2]
-        return self.film.speed == 0.0 or bool(floating.linear.load[:2] @ load >= load @ load)
 
     def _along_path(
         self,

@@ -8,7 +8,7 @@ import numpy as np
 
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import floating, floats_in_films
+from loadflow.scene.shaft_place import Suspensions, floating, floats_in_films
 from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -27,11 +27,12 @@ _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtyp
 class Place:
     """Where a film lies: `position` (5, n, 3), m, in the frame of the cube, and `film` (5, n), m.
 
-    NaN where the shaft stands.
+    NaN where the shaft stands. `load` (5, n), N, presses on it.
     """
 
     position: Floats
     film: Floats
+    load: Floats
 
 
 def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, dict[str, Place]]:
@@ -50,7 +51,7 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
         Where the film of each bearing lies.
     """
     where = dict(zip(concept.bearings, concept.positions))
-    places = {name: _place(at, name, (-1.0) ** k) for k, name in enumerate(names)}
+    places = {name: place_of(at, name, (-1.0) ** k) for k, name in enumerate(names)}
     first, last = names[0], names[-1]
     moved = places[last].position - places[first].position
     along = where[last] - where[first]
@@ -64,14 +65,17 @@ def _moved(slope: Floats) -> Floats:
     return np.stack([0.0 * slope[..., 0], slope[..., 2], -slope[..., 1]], axis=-1)
 
 
-def _place(at: Situation, name: str, sign: float) -> Place:
+def place_of(at: Situation, name: str, sign: float) -> Place:
+    """Place of a film under the mean load, and pushed by its deviation × `sign` as by `slopes`."""
     own, load = at.scene.journal.at(name), at.bearings[name]
     held = own.at_temperature(own.heat.inlet_temperature) if own.heat else own
     size = own.geometry
     width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
     bearing = replace(size, shape=CYLINDER, relief=(), width=width)
     force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
-    force = to_film(force * width / size.width)
+    force = to_film(force)
+    pressed = np.hypot(force[..., 0], force[..., 1])
+    force = force * width / size.width
     position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
     if at.turns.any():
         some = force[:, at.turns]
@@ -82,7 +86,7 @@ def _place(at: Situation, name: str, sign: float) -> Place:
         lies = np.asarray(found.eccentricity).reshape(some.shape)
         position[:, at.turns] = from_film(lies)
         film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
-    return Place(position, film)
+    return Place(position, film, pressed)
 
 
 @dataclass(frozen=True)
@@ -149,28 +153,28 @@ def _indicator(at: Situation) -> Sizes:
     return largest(found) if found else {}
 
 
-def _stated(scene: Scene) -> bool:
-    """Whether a scene says what its shaft rests on, or that films are not those it floats in."""
-    found = floating(scene.shaft, scene.journal)
+def stated(scene: Scene, of: Suspensions) -> bool:
+    """Whether a scene says what shafts rest on, or that films are not those they float in."""
+    found = of(scene.shaft, scene.journal)
     other = {key for key, value in _TOGETHER.items() if getattr(scene.journal, key) != value}
-    stated = any(one.beam is not None and one.beam.supports for _, one, _ in found)
-    return stated or bool(other & scene.journal.model_fields_set)
+    rests = any(one.beam is not None and one.beam.supports for _, one, _ in found)
+    return rests or bool(other & scene.journal.model_fields_set)
 
 
-def _switched(scene: Scene, on: bool) -> Scene | None:
-    """The scene with its shaft on rigid bearings, or on films that it is followed with in motion.
+def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
+    """The scene with shafts on rigid bearings, or on films that they are followed with in motion.
 
-    None where these are no films that can be, or the shaft stands at times.
+    None where these are no films that can be, or the shaft stands at times. `of` says which shafts.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
     if journal is None or (on and not always_turns(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
-    if on and any(held & {*one.bearings} for _, one, _ in floating(scene.shaft, scene.journal)):
+    if on and any(held & {*one.bearings} for _, one, _ in of(scene.shaft, scene.journal)):
         return None  # their moment, which no model feeds back, would hold the shaft
     support = BearingSupport(stiffness="journal", takes_moment=True)
     changed = {}
-    for kind, concept, films in floating(scene.shaft, scene.journal):
+    for kind, concept, films in of(scene.shaft, scene.journal):
         if concept.beam is not None and on:
             supports = (support,) * len(films)
             changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
@@ -179,7 +183,7 @@ def _switched(scene: Scene, on: bool) -> Scene | None:
     found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
     together = all(
         move_together(found, concept)
-        for _, concept, _ in floating(found.shaft, found.journal)
+        for _, concept, _ in of(found.shaft, found.journal)
         if concept.beam is not None
     )
     return found if not on or together else None
@@ -194,8 +198,8 @@ CLEARANCES = Effect(
     model="shaft",
     keys=("shaft.two_point", "shaft.integrated", "shaft.direct_drive"),
     is_on=lambda scene: floats_in_films(scene.shaft, scene.journal),
-    switched=_switched,
-    stated=_stated,
+    switched=lambda scene, on: switched(scene, on, floating),
+    stated=lambda scene: stated(scene, floating),
     indicator=_indicator,
     smaller=20.0,  # 13 at 15 MW, whose seed of 60 s swings less than is estimated
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",

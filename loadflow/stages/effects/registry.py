@@ -10,6 +10,7 @@ from loadflow.stages.effects import (
     roller_profile,
     rolling,
     rotor,
+    seats,
     shaft,
     thrust,
 )
@@ -25,6 +26,7 @@ EFFECTS: list[Effect] = [
     shaft.ELASTIC,
     shaft.STIFFNESS,
     clearances.CLEARANCES,
+    seats.SEATS,
     film.MOTION,
     film_heat.HEAT,
     film_heat.GROWTH,
@@ -37,6 +39,7 @@ EFFECTS: list[Effect] = [
     thrust.HEAT,
     thrust.TILT,
     thrust.CONTACT,
+    seats.OF_COLLARS,
     rolling.RINGS,
     roller_profile.SLICED,
     rolling.CENTRIFUGAL,

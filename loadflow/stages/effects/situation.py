@@ -360,14 +360,14 @@ def _on_bearings(
 
 
 def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
-    """Largest slope of the bent shaft, rad, in each thrust collar and film that it may tilt in.
+    """Largest slope of the bent shaft, rad, in each thrust collar and journal bearing.
 
     Its bearings are rigid, and let it tilt. Where no beam is stated, it is as wide as the journal
     or the bore of the pads.
     """
     collars, journal = scene.thrust.collars, scene.journal
     widths = {name: 2.0 * collar.geometry.inner_radius for name, collar in collars.items()}
-    widths |= {name: journal.at(name).geometry.diameter for name in journal.tilting}
+    widths |= {name: journal.at(name).geometry.diameter for name in journal.bearings}
     found: dict[str, float] = {}
     for concept in scene.shaft.concepts:
         bent: dict[Beam, xr.DataArray] = {}
