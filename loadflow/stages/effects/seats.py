@@ -12,7 +12,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import films_of, on_seats
 from loadflow.stages.effects.clearances import CLEARANCES, place_of, slopes, stated, switched
-from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.shaft_in_films import move_together, seats_felt
@@ -123,7 +123,7 @@ SEATS = Effect(
     switched=lambda scene, on: switched(scene, on, on_seats),
     stated=lambda scene: stated(scene, on_seats),
     indicator=_films,
-    larger=lambda scene: 60.0,  # where the shaft touches the ends of a film that carries little
+    larger=lambda scene: UNKNOWN,  # films that carry little in motion are stirred by small moments
     smaller=15.0,
     out="shells follow the shaft at once and all the way, whatever their seats resist with",
     needs="what tilt in the clearances does: two journal bearings, their films as supports of a "
