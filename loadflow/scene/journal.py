@@ -162,7 +162,7 @@ class Journal(Section, BaseModel):
         ValueError
             Naming it by `what`, and what helps.
         """
-        if not self.tilt:
+        if not self.tilt and place not in self.on_seats:
             raise ValueError(
                 f"{what}: only a tilted film takes a moment; set journal.tilt = true, or leave out "
                 "takes_moment"

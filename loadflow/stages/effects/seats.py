@@ -110,7 +110,7 @@ def _followed(scene: Scene) -> bool:
     """
     found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
     felt = [name for concept in found for name in seats_felt(scene, concept)]
-    chosen = scene.journal.tilt and scene.journal.in_motion
+    chosen = scene.journal.in_motion and scene.journal.rung == "reduced"
     together = all(move_together(scene, concept) for concept in found)
     return felt == scene.journal.on_seats and (together or not chosen)
 
@@ -127,7 +127,7 @@ SEATS = Effect(
     smaller=15.0,
     out="shells follow the shaft at once and all the way, whatever their seats resist with",
     needs="what tilt in the clearances does: two journal bearings, their films as supports of a "
-    'beam with takes_moment, journal.tilt, motion = "transient" and rung = "reduced"',
+    'beam with takes_moment, journal.motion = "transient" and rung = "reduced"',
     concerns=lambda scene: scene.wants("journal") and bool(scene.journal.on_seats),
     probe="journal",
 )
