@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import sys
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 
@@ -118,7 +119,9 @@ def test_a_run_that_was_killed_goes_on_and_gives_identical_results(cube, finishe
 
 
 def run_to(scene, out, workers):
+    """Run a scene; whether this process has loaded what draws."""
     lf.run(scene, out=out, workers=workers, report=False)
+    return "matplotlib" in sys.modules
 
 
 def test_two_processes_give_the_numbers_of_one(tmp_path):
@@ -126,7 +129,8 @@ def test_two_processes_give_the_numbers_of_one(tmp_path):
     cube = cube_file(tmp_path / "loads.h5", wind_speeds=(8.0,))
     alone, both = tmp_path / "one", tmp_path / "two"
     with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as fresh:
-        fresh.submit(run_to, scene_of(cube), alone, 1).result()
+        draws = fresh.submit(run_to, scene_of(cube), alone, 1).result()
+    assert not draws  # without a page, and before it is written
     run_to(scene_of(cube), both, 2)
     one, two = (xr.open_datatree(next(out.glob("*/result.h5"))) for out in (alone, both))
     assert_same(one, two)

@@ -115,8 +115,7 @@ def test_films_under_the_moment_of_a_seat_are_as_thin_as_indicated(ratio, eccent
     found = float(aligned.minimum_film) / left - 1.0
     assert found.size  # where one has no answer, its ends touch
     indicated = np.expm1(18.0 * moment)
-    larger, smaller = seats.SEATS.larger(scene_of(SLIDES)), seats.SEATS.smaller
-    assert np.all((found < larger * indicated) & (indicated < smaller * found))
+    assert np.all((found < 10.0 * indicated) & (indicated < seats.SEATS.smaller * found))
 
 
 def test_films_of_pads_on_a_slope_and_their_moment_are_as_indicated():

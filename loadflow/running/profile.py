@@ -11,6 +11,9 @@ from typing import Any
 from loadflow.running.cases import Outcome
 from loadflow.storage import write_text
 
+FILE = "profile.json"
+"""What a run with a profile leaves in its folder."""
+
 COMPILING = "compiling kernels"
 LOAD_CASES = "load cases"
 _GROUPS = {

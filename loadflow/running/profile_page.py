@@ -8,9 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from loadflow.report import Section, Table
-
-FILE = "profile.json"
-"""What a run with a profile leaves in its folder."""
+from loadflow.running.profile import FILE
 
 
 def profile_tables(folder: Path) -> Iterator[Table]:

@@ -38,9 +38,7 @@ from loadflow.running.folder import (
     save_result,
 )
 from loadflow.running.lock import locked
-from loadflow.running.profile import COMPILING, LOAD_CASES, Profile
-from loadflow.running.profile_page import FILE
-from loadflow.running.report_page import write_report
+from loadflow.running.profile import COMPILING, FILE, LOAD_CASES, Profile
 from loadflow.running.result import Run, collect
 from loadflow.running.telling import Task, times_left
 from loadflow.running.warm_up import (
@@ -243,6 +241,8 @@ def _run(
         say("report", 0, 1)
         if profile:
             profile.write(folder / FILE, where.workers)  # the page shows it
+        from loadflow.running.report_page import write_report  # what draws, only now
+
         write_report(folder, again=profile is not None)
         say("report", 1, 1)
         if profile:

@@ -65,7 +65,8 @@ class Journal(Section, BaseModel):
     or in the mean of given series. A ``self_aligning`` bearing has a shell on a support that turns
     with the shaft, such as a spherical seat or a ring of elastic or tilting pieces: however the
     shaft tilts, it lies straight in it, and ``tilt`` and ``alignment`` say nothing of it. ``seat``
-    is what the support resists with, friction or stiffness: plans then count what that leaves.
+    is what the support resists with, friction or stiffness. Shells on seats are followed with shaft
+    and films where supports of the beam take their moment; else plans count what that leaves.
 
     ``cavitation`` is the law of the ruptured film; its key ``kind`` says which:
     gas-mixture, sommerfeld, guembel, reynolds or mass-conserving. ``inlet`` replaces the oil on a
@@ -161,7 +162,7 @@ class Journal(Section, BaseModel):
         ValueError
             Naming it by `what`, and what helps.
         """
-        if not self.tilt:
+        if not self.tilt and place not in self.on_seats:
             raise ValueError(
                 f"{what}: only a tilted film takes a moment; set journal.tilt = true, or leave out "
                 "takes_moment"

@@ -62,16 +62,17 @@ class FilmsTogether:
 def move_together(scene: Scene, concept: Concept) -> bool:
     """Whether shaft and films of a suspension are followed together.
 
-    All its bearings are two journal bearings whose films the shaft's supports are, with tilt and in
-    motion, by the rung "reduced".
+    All its bearings are two journal bearings whose films the shaft's supports are, in motion, by
+    the rung "reduced": with tilt, or on seats that hold the shaft.
     """
     if concept.beam is None or len(concept.bearings) != 2 or not scene.journal.in_motion:
         return False
     films = [support.stiffness == "journal" for support in concept.beam.supports]
-    if films != [True, True] or not scene.journal.tilt or scene.journal.rung != "reduced":
+    if films != [True, True] or scene.journal.rung != "reduced":
         return False
-    tilting = set(concept.bearings) <= {*scene.journal.tilting, *seats_felt(scene, concept)}
-    return tilting and all(_followable(scene.journal.at(name)) for name in concept.bearings)
+    tilting = scene.journal.tilting if scene.journal.tilt else ()
+    known = set(concept.bearings) <= {*tilting, *seats_felt(scene, concept)}
+    return known and all(_followable(scene.journal.at(name)) for name in concept.bearings)
 
 
 def seats_felt(scene: Scene, concept: Concept) -> list[str]:

@@ -99,6 +99,9 @@ class Designs:
         Runs without an answer.
     tried : int
         Number of designs that were checked.
+    left_out : str
+        What the fast models leave out of the films of the candidate, in words; empty: nothing that
+        counts.
     """
 
     name: str
@@ -115,6 +118,7 @@ class Designs:
     judged: dict[str, Judged] = field(default_factory=dict)
     failures: dict[str, str] = field(default_factory=dict)
     tried: int = 0
+    left_out: str = ""
 
     def answer_at(self, point: np.ndarray) -> DesignPoint:
         """Answer of a point that was asked."""
@@ -254,6 +258,7 @@ class Designs:
             "candidate": self.candidate,
             "title": self.title,
             "conclusion": self.conclusion,
+            "left_out": self.left_out,
             "margin": self.options.margin,
             "axes": axes,
             "numbers": {

@@ -79,7 +79,7 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
         Its `change` names tolerances that break a limit by themselves.
     """
     rubs = rubbing_of(run.scene, run.folder, one.numbers["wear"])
-    built = Built(_bearings(run), run.scene.friction, _in_bores(run.scene, spectrum), rubs)
+    built = Built(_bearings(run), _friction(run), _in_bores(run.scene, spectrum), rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -98,6 +98,15 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
     told = f"tolerance of {', '.join(breaking)} alone" if breaking else ""
     change = "; ".join(part for part in (one.change, told) if part)
     return replace(one, numbers=numbers, change=change)
+
+
+def _friction(run: Finished) -> Friction:
+    """The section of the scene; with a heat balance at the temperature of the warmest bearing."""
+    options = run.scene.friction
+    if options.conductance is None or "rolling" not in run.tables:
+        return options
+    warmest = float(run.tables["rolling"]["bearing_temperature"].max())
+    return options.model_copy(update={"temperature": warmest, "conductance": None})
 
 
 def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:

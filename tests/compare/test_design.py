@@ -16,9 +16,12 @@ from synthetic import cube_file
 from loadflow.cli import main
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
+from loadflow.journal import JournalBearing
 from loadflow.running.comparison import Means, shared_loads
-from loadflow.running.designing import chosen_candidate, design
+from loadflow.running.designing import _left_out, chosen_candidate, design
+from loadflow.scene.candidate import Candidate
 from loadflow.scene.design import Design
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
 from loadflow.studies.design_point import DesignPoint, judge_design
@@ -275,6 +278,23 @@ def test_the_page_says_the_conclusion_and_draws_front_and_map(found):
 
 
 @pytest.mark.slow
+def test_the_page_tells_of_a_tilt_in_the_clearances_that_fast_models_leave_out(cube, tmp_path):
+    """Not of bearings that align themselves, nor of a rigid shaft."""
+
+    def told(beam, **keys):
+        bearings = {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
+        journal = Journal(bearings=["N", "N2"], geometry=JournalBearing(**bearings), **keys)
+        shaft = {"shaft": {"two_point": {"beam": {}} if beam else {}}}
+        words = {"name": "told", "loads": {"files": [str(cube)]}, "results": ["loads.statistics"]}
+        loads = shared_loads(make_scene(words | shaft), tmp_path / f"{beam}", Means())
+        return _left_out(loads, "own", Candidate(title="own", journal=journal))
+
+    said = told(beam=True)
+    assert "clearances of N and N2" in said
+    assert float(re.search(r"1/([\d.]+)", said).group(1)) > 1.05
+    assert told(beam=True, self_aligning=True) == told(beam=False) == ""
+
+
 def test_killed_or_not_and_on_one_or_two_processes_it_finds_the_same(cube, found, tmp_path):
     """Half of its parts gone, as of a search that was killed, and two processes instead of one."""
     shutil.copytree(found.path.parent.parent, tmp_path / "search")

@@ -218,7 +218,9 @@ def test_films_that_cannot_be_solved_again_have_no_margin_and_a_reason(monkeypat
 def test_a_limit_without_an_answer_is_told_beside_the_smallest_of_the_others(monkeypatch):
     known = Margin(1.4, "N", governs="largest film pressure in N")
     missing = Margin(math.nan, "N2", uncounted="smallest film in N2: the path stops")
-    tables = {"thrust": xr.Dataset(coords={"case": ["gust"], "bearing": ["N2"]})}
+    cases = {"case": ["gust"], "bearing": ["N2"], "dlc": ("case", ["1.4"])}
+    table = xr.Dataset({"in_contact": (("case", "bearing"), [[0]])}, cases)
+    tables = {"thrust": table}
     scene = SimpleNamespace(thrust=collar())
     for found, factor in (([missing, known], 1.4), ([missing], math.nan)):
         monkeypatch.setattr(compare_margins, "pad_margins", lambda *about, one=found: one)

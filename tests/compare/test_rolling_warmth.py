@@ -14,7 +14,7 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_factor import grown
 from loadflow.studies.compare_friction import rolling_losses
-from loadflow.studies.compare_margins import looked_at
+from loadflow.studies.compare_margins import looked_at, lubrication
 from loadflow.studies.rolling_warmth import HOTTEST, Warmth, warmest, warmth_of
 
 COOLING, AIR = 40.0, 288.15
@@ -30,7 +30,7 @@ def cooled(tmp_path_factory):
         "shaft": {"moment": {}},
         "candidates": {"double-row-tapered": {}},
         "friction": {"conductance": COOLING, "ambient_temperature": AIR},
-        "as_built": dict.fromkeys(("viscosity", "temperature", "roughness", "alignment"), 0.0),
+        "as_built": {"roughness": 0.0, "alignment": 0.0, "clearance": 0.0, "viscosity": 0.0},
     }
     found = compare(make_scene(data), out=tmp_path_factory.mktemp("runs"))
     one = found.comparison.candidates[0]
@@ -54,6 +54,20 @@ def test_the_page_tells_the_warmest_bearing_and_what_cools_it(cooled):
     assert warm.low <= warm.value <= warm.high
     assert "40 W/K to 15 °C" in warm.note
     assert "as warm as its heat balance has it" in numbers["viscosity_ratio"].note
+
+
+def test_a_band_by_the_temperature_of_the_oil_is_around_that_of_the_heat_balance(cooled):
+    """κ goes with the viscosity, whose slope is less the warmer the oil is."""
+    _, scene, table, numbers = cooled
+    warm, oil = float(table["bearing_temperature"].max()), lubrication(scene.friction).oil
+    kappa = numbers["viscosity_ratio"]
+    thinner, thicker = (
+        float(oil.kinematic_viscosity(warm + more) / oil.kinematic_viscosity(warm))
+        for more in (5.0, -5.0)
+    )
+    assert kappa.tolerance == "oil temperature"
+    assert kappa.tolerance_low / kappa.value == pytest.approx(thinner, rel=1e-3)
+    assert kappa.tolerance_high / kappa.value == pytest.approx(thicker, rel=1e-3)
 
 
 @pytest.mark.parametrize(("factor", "share"), [(1.3, 0.2), (2.0, 0.2)])

@@ -24,7 +24,7 @@ from loadflow.journal import (
     Supply,
 )
 from loadflow.journal.models import grid
-from loadflow.journal.solvers import estimate, statics
+from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.warm_orbit import FEW
@@ -292,3 +292,18 @@ def test_a_load_that_its_supply_does_not_carry_is_not_sought_where_it_floats(mon
     answer = bearing.equilibrium((1e5, 0.0), 20.0, Lubricant(0.03), **words)
     assert answer.converged
     assert min(starts) > 0.8
+
+
+def test_a_growing_load_that_has_closed_the_ends_of_a_shell_grows_no_further(monkeypatch):
+    """Number 2366 keeps its ends, which the shaft meets long before its load is on it."""
+    steps: list[int] = []
+    newton = load_stepping.solve_equilibrium
+
+    def counted(*given: Any, **words: Any) -> Any:
+        steps.append((found := newton(*given, **words)).iterations)
+        return found
+
+    monkeypatch.setattr(load_stepping, "solve_equilibrium", counted)
+    with pytest.raises(SolverError, match="touches the elastic shell"):
+        drawn("shell", 2366)[1]()
+    assert sum(steps) < 600  # 1574 where it grows to where none is found

@@ -212,3 +212,22 @@ def test_a_shaft_on_a_single_pad_is_held_sideways_by_the_squeeze_of_the_others(l
     rest = bearing.equilibrium(force[-1], 20.0, oil, **words)
     assert fine["eccentricity_ratio"].values[-1] < float(rest.eccentricity_ratio)
     assert float(fine["eccentricity"].values[-1, 1]) > 0.6 * rest.eccentricity[1]
+
+
+def test_a_load_passes_over_a_pad_that_alone_holds_the_shaft_alike_on_both_rungs():
+    bearing = JournalBearing(0.2, 0.2, 1e-3, shape=TiltingPads(3, 1.06, 0.14, 0.0))
+    time, angle = np.linspace(0.0, 0.15, 16), np.linspace(0.3, -0.45, 16)
+    force = 1e4 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    words = {"cavitation": Guembel(), "grid": (48, 8), "edge_pressure": 3e5, "step": "adaptive"}
+    grid, fast = (
+        bearing.orbit(time, force, 20.0, Lubricant(0.03), rung=rung, **words)
+        for rung in ("grid", "reduced")
+    )
+    aside = grid["eccentricity"].values[:, 1]
+    assert aside[0] > 0.0
+    assert aside[-1] < 0.0
+    np.testing.assert_allclose(
+        fast["eccentricity"] / bearing.clearance,
+        grid["eccentricity"] / bearing.clearance,
+        atol=0.01,
+    )

@@ -15,7 +15,7 @@ from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages.effects.seats import SEATS
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import films_together
+from loadflow.stages.shaft_in_films import films_together, move_together
 from loadflow.turbines import load_turbine
 
 TILT = load_turbine("nrel-5mw").rotor.tilt
@@ -177,6 +177,7 @@ def test_a_plan_follows_shells_in_their_seats_where_the_accuracy_asks_for_it():
     more = {"shaft": {"two_point": {"beam": beam}}, "loads": {"wind_speeds": [12.0], "seeds": 1}}
     plan = make_plan(scene_of(None, journal=film, **more))
     assert SEATS.is_on(plan.scene)
+    assert move_together(plan.scene, plan.scene.shaft.two_point)
     assert plan.accurate
     held = make_plan(scene_of(None, journal=film | {"motion": "quasi-static"}, **more))
     assert not SEATS.is_on(held.scene)

@@ -289,9 +289,12 @@ def _other_pads(work, pads, pad_work, q, reached, speed):
         if finite and pad_work.on[j] and abs(lift) < FLAT:
             put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
+    films = 0
+    for j in range(count):
+        films += 1 if pad_work.on[j] else 0
     for j in range(0 if changed else count):
         gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
-        if not pad_work.on[j] and gap < pads.widest[sense] + NEAR:
+        if not pad_work.on[j] and (films < 2 or gap < pads.widest[sense] + NEAR):
             put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     return changed
@@ -392,11 +395,14 @@ def solve_on_pads(
                     _summed(film, work, pads, pad_work, q, wedge, thin * rate, rows[n])
                     for j in range(count):
                         tilts[n, j] = own[LAST, j]
-                changed = False
+                changed, held = False, 0
+                for j in range(count):
+                    gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+                    held += 1 if gap <= pads.widest[1 if omega < 0.0 else 0] else 0
                 for j in range(count if not resting else 0):
                     gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
                     holds = gap <= pads.widest[1 if omega < 0.0 else 0]
-                    if holds != pad_work.on[j]:
+                    if holds != pad_work.on[j] and (holds or held > 1):  # on one it goes sideways
                         put_on(work, pads, pad_work, q, omega, j, holds)
                         changed = True
                 if changed:

@@ -23,7 +23,8 @@ _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
 _FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
 _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
-_CLOSING, _CLOSED = 1e-3, 2  # gap left, in clearances, and next steps without, where it has closed
+_CLOSING = 1e-3  # gap, in clearances, that is left before steps in which it closes
+_CLOSED = 2  # such steps in a row, after which the shaft has met the shell
 _STEPS, _STEPS_EACH = 16, 25  # Newton steps of each, and of all in multiples of those
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
@@ -67,7 +68,7 @@ def solve_in_load_steps(
     """As `solve_equilibrium`, from a light load on: for shells that the load itself must open."""
     film.relax()
     u, place, state = film.start(), position.copy(), no_film(film)
-    done, step, spent = 0.0, _FIRST_LOAD, 0
+    done, step, spent, left, closed = 0.0, _FIRST_LOAD, 0, math.inf, 0
     most = film.newton_steps(_STEPS_EACH)
     while step >= _LEAST_LOAD and spent < _STEPS * most:
         share = min(1.0, done + step)
@@ -81,6 +82,10 @@ def solve_in_load_steps(
             return replace(state, iterations=spent)
         else:
             done, u, place = share, state.u, state.position
+            before, left = left, film.clearance_left(place)
+            closed = closed + 1 if left <= min(before, 0.0) else 0
+            if closed >= _CLOSED:  # more load presses the shaft but farther into the shell's ends
+                break
             step *= 1.5 if state.iterations < _STEPS_EACH // 2 else 1.0
     film.place(state.u, state.position)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)

@@ -176,6 +176,8 @@ def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
     changed = {}
     for kind, concept, films in of(scene.shaft, scene.journal):
         if concept.beam is not None and on:
+            if films != [*concept.bearings]:
+                return None
             supports = (support,) * len(films)
             changed[kind] = replace(concept, beam=replace(concept.beam, supports=supports))
         elif concept.beam is not None:

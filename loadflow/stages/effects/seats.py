@@ -12,7 +12,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import films_of, on_seats
 from loadflow.stages.effects.clearances import CLEARANCES, place_of, slopes, stated, switched
-from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.shaft_in_films import move_together, seats_felt
@@ -110,7 +110,7 @@ def _followed(scene: Scene) -> bool:
     """
     found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
     felt = [name for concept in found for name in seats_felt(scene, concept)]
-    chosen = scene.journal.tilt and scene.journal.in_motion
+    chosen = scene.journal.in_motion and scene.journal.rung == "reduced"
     together = all(move_together(scene, concept) for concept in found)
     return felt == scene.journal.on_seats and (together or not chosen)
 
@@ -123,11 +123,11 @@ SEATS = Effect(
     switched=lambda scene, on: switched(scene, on, on_seats),
     stated=lambda scene: stated(scene, on_seats),
     indicator=_films,
-    larger=lambda scene: 60.0,  # where the shaft touches the ends of a film that carries little
+    larger=lambda scene: UNKNOWN,  # films that carry little in motion are stirred by small moments
     smaller=15.0,
     out="shells follow the shaft at once and all the way, whatever their seats resist with",
     needs="what tilt in the clearances does: two journal bearings, their films as supports of a "
-    'beam with takes_moment, journal.tilt, motion = "transient" and rung = "reduced"',
+    'beam with takes_moment, journal.motion = "transient" and rung = "reduced"',
     concerns=lambda scene: scene.wants("journal") and bool(scene.journal.on_seats),
     probe="journal",
 )
