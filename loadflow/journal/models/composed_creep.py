@@ -31,6 +31,7 @@ _EASY = 10  # Newton steps below which the next step of the speed is longer
 _LONGER, _SHORTER = 1.5, 0.5  # powers of it that are tried next
 _STEPS = 25  # Newton steps of each
 _LEAST = 1.01  # ratio of two speeds below which a step is given up
+_TRIES = 3  # films of a rigid bore, each where the last one has left the shaft
 _FIRMER, _FIRMEST = 0.25, 1e-3  # next step of the compliance, and share of it that is given up
 _BUDGET = 10  # Newton steps of a way, in multiples of those of a solution
 _OVERLAP = 1e-3  # first overlap of a standing shaft, clearances; the next ones are twice as large
@@ -82,7 +83,7 @@ class Creep:
     def places(self, speed: float) -> Iterator[Array]:
         """Places (4,) at a `speed`, rad/s, that the ways there have come to; fill the unknowns."""
         law = self.model.units.law
-        if speed != 0.0 and law.keeps_fill and not law.smooth:
+        if speed != 0.0 and not law.smooth:
             found = self.from_rigid(speed)
             if found is not None:
                 yield found
@@ -114,25 +115,36 @@ class Creep:
         model, work, given = self.model, self.model.work, self.spent
         if model.film.rough.size > 0.0:
             return None
-        place, share, next_one = self._estimate(speed), 0.0, 0.0
-        work.u[:] = model.cold()
-        unknowns, held = work.u.copy(), place.copy()
-        while True:
-            softer = model.film._replace(give=next_one * model.film.give)
-            self.model = replace(model, film=softer)
-            found = self._solved(place, speed, self.most)
-            self.model = model
-            if found and next_one == 1.0:
-                return place
-            if found:
-                step = 1.0 if next_one == 0.0 else 2.0 * (next_one - share)
-                unknowns, held, share = work.u.copy(), place.copy(), next_one
+        place, share, softer = self._estimate(speed), 0.0, 1.0
+        try:
+            self._gives(model, 0.0)
+            for _ in range(_TRIES):  # a film that has run away may leave its shaft near the answer
+                work.u[:] = model.cold()
+                self._row(place, speed, self.most, size=0)  # the film first
+                if self._solved(place, speed, self.most):
+                    break
             else:
-                work.u[:], place[:] = unknowns, held
-                step = _FIRMER * (next_one - share)
-            if step < _FIRMEST or self.spent - given > _BUDGET * self.most:
                 return None
-            next_one = min(share + step, 1.0)
+            unknowns, held = work.u.copy(), place.copy()
+            while True:
+                self._gives(model, softer)
+                if self._solved(place, speed, self.most):
+                    if softer == 1.0:
+                        return place
+                    step = 2.0 * (softer - share)
+                    unknowns, held, share = work.u.copy(), place.copy(), softer
+                else:
+                    work.u[:], place[:] = unknowns, held
+                    step = _FIRMER * (softer - share)
+                if step < _FIRMEST or self.spent - given > _BUDGET * self.most:
+                    return None
+                softer = min(share + step, 1.0)
+        finally:
+            self.model = model
+
+    def _gives(self, model: ComposedFilm, share: float) -> None:
+        """Solve films in a shell that gives way by a share of what it does."""
+        self.model = replace(model, film=model.film._replace(give=share * model.film.give))
 
     def from_standing(self, speed: float) -> Array | None:
         """The same from the shaft that stands on its asperities."""

@@ -370,7 +370,7 @@ SUPPLY = Effect(
     partly=(
         (
             "reduced",
-            "rectangular ones, each on one segment, no moving pads or shell",
+            "rectangular ones, each on one segment, no moving pads",
         ),
     ),
 )
