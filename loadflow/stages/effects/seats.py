@@ -109,10 +109,10 @@ def _followed(scene: Scene) -> bool:
     Plans choose section by section: that of the shaft says so, as far as the films can be.
     """
     found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
-    felt = [name for concept in found for name in seats_felt(scene, concept)]
+    felt = {name for concept in found for name in seats_felt(scene, concept)}
     chosen = scene.journal.in_motion and scene.journal.rung == "reduced"
     together = all(move_together(scene, concept) for concept in found)
-    return felt == scene.journal.on_seats and (together or not chosen)
+    return felt == {*scene.journal.on_seats} and (together or not chosen)
 
 
 SEATS = Effect(
