@@ -136,13 +136,15 @@ def test_the_slope_in_a_seat_is_that_in_the_clearances_and_that_of_the_bent_shaf
     scene = scene_of(SLIDES, winds=(8.0, 12.0))
     at = estimated(scene)
     concept = scene.shaft.two_point
-    slope, _ = slopes(at, concept, films_of(concept, scene.journal))
+    slope, places = slopes(at, concept, films_of(concept, scene.journal))
     for name in ("N", "N2"):
         bent = at.bearings[name].slope
         assert np.all(bent > 0)
         np.testing.assert_allclose(
             seats.shaft_slopes(at, name), np.linalg.norm(slope, axis=-1) + bent
         )
+        # in the film as it lies at the same time: one bearing is pushed as the other is pulled
+        np.testing.assert_array_equal(seats.place_on_seat(at, name).load, places[name].load)
 
 
 @pytest.mark.parametrize("effect", [seats.SEATS, seats.OF_COLLARS])

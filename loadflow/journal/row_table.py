@@ -201,7 +201,8 @@ class RowTable:
         sums = self.sums(*place)[[FORCE, TORQUE, MOMENT_ACROSS, MOMENT_ALONG], 0]
         off = np.array([*sums, self.pressure(*place)[0], self.minimum_film(*place)[0]]) - exact
         moment = np.hypot(*off[2:4]) / np.hypot(*exact[2:4]) if at[1] > 0.0 else 0.0
-        return np.array([np.abs(off / exact)[[0, 1, 4, 5]].max(), moment])
+        some = [0, 1, 4, 5]
+        return np.array([np.abs(off[some] / exact[some]).max(), moment])
 
     @property
     def _tilted(self) -> int:

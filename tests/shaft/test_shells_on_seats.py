@@ -145,6 +145,25 @@ def test_seats_that_stick_keep_the_turn_that_they_have(loads):
     assert size(found.turn - found.turn[0]).max() < 5e-6 < 0.05 * size(found.tilt).max()
 
 
+@pytest.mark.parametrize("times", [3, 6])
+def test_shells_begin_aligned_where_heavy_loads_begin_nearer_the_middle(loads, times):
+    steady = loads.isel(time=slice(60)).copy()
+    steady["hub_force"] = times * steady["hub_force"]
+    steady["hub_moment"] = steady["hub_moment"].isel(time=[0] * 60).assign_coords(steady.coords)
+    scene = scene_of(spherical(1.0))
+    path = films_together(scene, scene.shaft.two_point, steady, TILT).path
+    assert size(path.tilt).max() < 1.2e-4
+
+
+def test_whether_all_shells_are_followed_does_not_hang_on_the_order_of_the_bearings():
+    film = FILM | {"kind": "journal", "self_aligning": True, "seat": spherical(0.1)}
+    film |= {"geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3}}
+    beam = {"sections": [{"outer_diameter": 2.0}], "supports": [FELT, FELT]}
+    told = {"name": "seats", "results": ["journal.film"], "shaft": {"two_point": {"beam": beam}}}
+    for order in (("N", "N2"), ("N2", "N")):
+        assert SEATS.is_on(make_scene(told | {"bearings": dict.fromkeys(order, film)}))
+
+
 def test_films_on_seats_tell_their_tilt_and_are_those_of_the_path(loads):
     scene = scene_of(spherical(0.02))
     given = {"loads": loads, "shaft": shaft.bearing_loads(scene, None, {"loads": loads})}

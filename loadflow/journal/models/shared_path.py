@@ -261,7 +261,7 @@ class _March:
             self.shared.at[own : own + 2] += turned / give
             side.place[2:] = 0.0
         elif give > 0.0:
-            side.slipped[2:] += turned
+            side.slipped[2:] = turned
             side.place[2:] = 0.0
 
     def goes_on(self, levels: list[int], begin: int, end: int) -> int:

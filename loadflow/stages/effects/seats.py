@@ -11,7 +11,15 @@ import numpy as np
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import films_of, on_seats
-from loadflow.stages.effects.clearances import CLEARANCES, place_of, slopes, stated, switched
+from loadflow.shaft import Concept
+from loadflow.stages.effects.clearances import (
+    CLEARANCES,
+    Place,
+    place_of,
+    slopes,
+    stated,
+    switched,
+)
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
@@ -24,12 +32,22 @@ def shaft_slopes(at: Situation, name: str) -> Floats:
     Rows are those of `slopes`: under the mean load, and pushed either way. 0 in the clearances
     where it stands.
     """
-    concept = next(one for one in at.scene.shaft.concepts if name in one.bearings)
+    concept = _concept(at, name)
     films, bent = films_of(concept, at.scene.journal), at.bearings[name].slope
     if len(films) < 2:
         return np.tile(bent, (5, 1))
     slope, _ = slopes(at, concept, films)
     return np.nan_to_num(np.linalg.norm(slope, axis=-1)) + bent
+
+
+def place_on_seat(at: Situation, name: str) -> Place:
+    """Where a film lies, (5, n), pushed as it is where the shaft has the slopes of `slopes`."""
+    films = films_of(_concept(at, name), at.scene.journal)
+    return place_of(at, name, (-1.0) ** films.index(name))
+
+
+def _concept(at: Situation, name: str) -> Concept:
+    return next(one for one in at.scene.shaft.concepts if name in one.bearings)
 
 
 def _films(at: Situation) -> Sizes:
@@ -46,7 +64,7 @@ def _films(at: Situation) -> Sizes:
 
 def _film(at: Situation, name: str, own: Journal) -> Sizes:
     assert own.seat is not None
-    lies, slope, width = place_of(at, name, 1.0), shaft_slopes(at, name), own.geometry.width
+    lies, slope, width = place_on_seat(at, name), shaft_slopes(at, name), own.geometry.width
     # a shaft that stands has no film: its slope closes nothing
     stuck = np.nan_to_num(0.5 * slope * width / lies.film)
     passed = own.seat.largest_moment(lies.load, slope) / (np.maximum(lies.load, 1.0) * width)
@@ -109,10 +127,10 @@ def _followed(scene: Scene) -> bool:
     Plans choose section by section: that of the shaft says so, as far as the films can be.
     """
     found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
-    felt = [name for concept in found for name in seats_felt(scene, concept)]
+    felt = {name for concept in found for name in seats_felt(scene, concept)}
     chosen = scene.journal.in_motion and scene.journal.rung == "reduced"
     together = all(move_together(scene, concept) for concept in found)
-    return felt == scene.journal.on_seats and (together or not chosen)
+    return felt == {*scene.journal.on_seats} and (together or not chosen)
 
 
 SEATS = Effect(
