@@ -93,6 +93,17 @@ def test_what_a_slope_closes_grows_with_clearance_and_with_bores_that_are_turned
     assert most(5e-4) < most() < most(alignment=[0.0, 3e-4])
 
 
+def test_loads_that_a_film_does_not_carry_leave_the_estimate_of_the_others():
+    film = {"diameter": 0.8, "width": 0.22, "relative_clearance": 1e-3}
+    at = estimated(scene_of(geometry=film, alignment="mean", lubricant={"viscosity": 0.01}))
+    ((_, concept, names),) = floating(at.scene.shaft, at.scene.journal)
+    missing = np.isnan(slopes(at, concept, names)[1]["N"].film)
+    assert missing.any()
+    assert not missing[0].any()
+    assert all(np.isfinite([*closed_ends(at).values()]))
+    assert all(np.isfinite([*CLEARANCES.indicator(at).values()]))
+
+
 def test_a_plan_counts_the_tilt_in_the_clearances_until_films_are_fed_back():
     rigid, floats = (scene_of(part, motion="quasi-static") for part in ([], FLOATS))
     left, counted = make_plan(rigid), make_plan(floats)

@@ -229,11 +229,10 @@ class _Choosing:
                 f"{self.scene.name}: no models of {names} that the scene leaves open go together "
                 'with what it states; name their rungs, or accuracy = "given"'
             )
-        why = (
-            "cheapest that is accurate enough" if good[best] else "most accurate that was measured"
-        )
-        if beyond.any():
-            why = "cheapest beside what cannot be helped"
+        why = "most accurate that was measured"
+        if good[best]:
+            beside = "beside what cannot be helped"
+            why = f"cheapest {beside if beyond.any() else 'that is accurate enough'}"
         if missing[best]:
             why += ", by the errors that are known"
         return scene_of(best), why

@@ -18,6 +18,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
+from loadflow.stages.turning import runs_throughout
 from loadflow.studies.compare_factor import Margin
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import (
@@ -293,7 +294,8 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
             place=losses.place, note=f"median below {speed:.3g} 1/min",
         )  # fmt: skip
     elif losses is not None:
-        yield "film_parameter", Number(math.nan, "–", note=f"n/a: {STARTS_ALONE}")
+        why = "no loaded contact has a film" if runs_throughout(table).any() else STARTS_ALONE
+        yield "film_parameter", Number(math.nan, "–", note=f"n/a: {why}")
     if losses is not None:
         for name, each in losses.torques.items():
             own = each.sel(case=table["case"].values).sum("bearing").values

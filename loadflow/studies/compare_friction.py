@@ -69,7 +69,7 @@ def rolling_losses(scene: Scene, folder: Path, table: xr.Dataset) -> Losses | No
     films: dict[str, list[tuple[float, float, str, float]]] = {}
     for place, part in scene.rolling.bearings.items():
         stated = friction_options(scene.friction, part.geometry)
-        for case, some in looked_at(folder, place):
+        for case, some in looked_at(folder, place, table):
             warm = float(table["bearing_temperature"].sel(case=case, bearing=place))
             options = replace(stated, temperature=warm)
             speed = some["speed"].values.astype(float)

@@ -233,7 +233,8 @@ def _rolling_margins(
         return
     spectrum = _spectrum(scene, folder, place, tables)
     grease = lubrication(scene.friction)
-    warmth = warmth_of(scene, place, tables["rolling"], looked_at(folder, place))
+    every = tables["rolling"]
+    warmth = warmth_of(scene, place, every, looked_at(folder, place, every))
 
     def life(factor: float, warmer: float = 0.0) -> float:
         turns = damage = 0.0
@@ -290,7 +291,7 @@ def _spectrum(
     """Each case with equivalent loads, N, speeds, rad/s, and shares of time of some samples."""
     lifetime = tables.get("lifetime")
     parts = []
-    for case, some in looked_at(folder, place):
+    for case, some in looked_at(folder, place, tables["rolling"]):
         share = 1.0
         if lifetime is not None and "share" in lifetime:
             share = float(lifetime["share"].sel(case=case))
@@ -309,14 +310,18 @@ def solved(scene: Scene, place: str, some: xr.Dataset) -> Any:
     return rest(bearing_at_work(scene, place, some), force, moment, strict=False)
 
 
-def looked_at(folder: Path, place: str) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield each case and some of its samples, that with the largest thrust among them."""
-    for path in sorted((folder / "reduction").glob("*.h5")):
-        samples = reduced_samples(path, place)
+def looked_at(folder: Path, place: str, table: xr.Dataset) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield each case and some of its samples, that with the largest thrust among them.
+
+    Those of the `table` of rolling bearings that have an answer: a run goes on without the others.
+    """
+    answered = table["bearing_temperature"].sel(bearing=place).dropna("case")
+    for case in answered["case"].values.tolist():
+        samples = reduced_samples(folder / "reduction" / f"{case}.h5", place)
         count = samples.sizes["sample"]
         spread = np.linspace(0, count - 1, min(SAMPLES, count)).round().astype(int)
         thrust = int(np.argmax(np.abs(samples["force"].sel(axis="x").values)))
-        yield path.stem, samples.isel(sample=np.unique([*spread, thrust]))
+        yield case, samples.isel(sample=np.unique([*spread, thrust]))
 
 
 def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
@@ -330,7 +335,7 @@ def row_shares(scene: Scene, folder: Path, tables: Tables) -> RowShare | None:
             continue
         parts = [
             (case, float(some["time"].values[k]), float(force), row)
-            for case, some in looked_at(folder, place)
+            for case, some in looked_at(folder, place, tables["rolling"])
             for k, (force, row) in enumerate(
                 zip(
                     some["force"].sel(axis="x").values,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -152,12 +152,10 @@ def _slowest(samples: xr.Dataset) -> float:
 def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> Number:
     """Smallest equivalent load over the capacity while the shaft turns."""
     cases = table["case"].values.tolist()
-    judged = {case for case, runs in zip(cases, runs_throughout(table)) if runs}
+    judged = table["case"].values[runs_throughout(table)].tolist()
     own = dict.fromkeys(cases, math.inf)  # over its limit, the least of each case
     least, light, total = (math.inf, "", "", math.nan, 0.0), 0.0, 0.0
-    for place, case, some in _samples(scene, folder):
-        if case not in judged:
-            continue
+    for place, case, some in _samples(scene, folder, judged):
         bearing = scene.rolling.geometries[place]
         turning = np.abs(some["speed"].values) >= SLOWEST
         load = _equilibrium(scene, place, some).equivalent_load / bearing.rated_capacity
@@ -187,11 +185,12 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     Its error is that of what counts as standing: a tenth, and ten times, of that speed.
     """
     counted, worst = np.zeros((3, table.sizes["case"])), (0.0, "", "", math.nan)
-    for k, case in enumerate(table["case"].values.tolist()):
+    cases = table["case"].values.tolist()
+    for k, case in enumerate(cases):
         speed = np.abs(read_variables(folder / "loads" / f"{case}.h5", ("speed",))["speed"].values)
         counted[:, k] = [(speed < factor * SLOWEST).mean() for factor in (1.0, *_THRESHOLDS)]
     stands = counted[0]
-    for place, case, some in _samples(scene, folder):
+    for place, case, some in _samples(scene, folder, cases):
         still = np.abs(some["speed"].values) < SLOWEST
         if still.any():
             pressure = _equilibrium(scene, place, some).maximum_pressure
@@ -224,19 +223,21 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     )
 
 
-def _samples(scene: Scene, folder: Path) -> Iterator[tuple[str, str, xr.Dataset]]:
+def _samples(
+    scene: Scene, folder: Path, cases: Iterable[str]
+) -> Iterator[tuple[str, str, xr.Dataset]]:
     """Yield place, case and reduced samples of all rolling bearings that turn with the rotor."""
     for place, part in scene.rolling.bearings.items():
         if part.oscillation is not None:
             continue
-        for path in sorted((folder / "reduction").glob("*.h5")):
-            samples = reduced_samples(path, place)
+        for case in cases:
+            samples = reduced_samples(folder / "reduction" / f"{case}.h5", place)
             radial = to_rolling(samples["force"].transpose("sample", "axis").values)
             size = np.linalg.norm(radial, axis=1)
             speed = np.abs(samples["speed"].values)
             order = {int(np.argmin(size)), int(np.argmin(speed)), int(np.argmax(size))}
             spread = np.linspace(0, samples.sizes["sample"] - 1, _SPREAD).round().astype(int)
-            yield place, path.stem, samples.isel(sample=sorted({*spread.tolist(), *order}))
+            yield place, case, samples.isel(sample=sorted({*spread.tolist(), *order}))
 
 
 _SPREAD = 12

@@ -86,12 +86,12 @@ def _power(scene: Scene, place: str, some: xr.Dataset) -> float:
     if scene.friction.conductance is None:
         return 0.0
     ambient = scene.friction.ambient_temperature
-    rise = warm_bearing(scene, place, some)[1] - ambient
-    if not rise > 0:  # it stands
-        return 0.0
     try:
+        rise = warm_bearing(scene, place, some)[1] - ambient
+        if not rise > 0:  # it stands
+            return 0.0
         more = warm_bearing(scene, place, grown(some, _HEAVIER))[1] - ambient
-    except SolverError:
+    except SolverError:  # some samples may lose more than all of them, which their run balanced
         return math.inf
     return math.log(more / rise) / math.log(_HEAVIER)
 

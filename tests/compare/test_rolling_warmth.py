@@ -47,6 +47,16 @@ def test_losses_of_a_comparison_are_what_the_cooling_carries_off(cooled):
     np.testing.assert_allclose(losses.values, shed.values, rtol=0.05)  # in few samples
 
 
+def test_load_cases_without_an_answer_are_left_out_of_losses_and_margin(cooled):
+    folder, scene, table, _ = cooled
+    answered = table.isel(case=[-1])
+    losses = rolling_losses(scene, folder, answered)
+    assert losses.power["case"].values.tolist() == answered["case"].values.tolist()
+    missed = answered.reindex(case=table["case"].values)  # as beside a film that has all of them
+    asked = [case for case, _ in looked_at(folder, "M", missed)]
+    assert asked == answered["case"].values.tolist() != table["case"].values.tolist()
+
+
 def test_the_page_tells_the_warmest_bearing_and_what_cools_it(cooled):
     *_, table, numbers = cooled
     warm = numbers["bearing_temperature"]
@@ -73,7 +83,7 @@ def test_a_band_by_the_temperature_of_the_oil_is_around_that_of_the_heat_balance
 @pytest.mark.parametrize(("factor", "share"), [(1.3, 0.2), (2.0, 0.2)])
 def test_the_warmth_under_other_loads_is_that_of_their_heat_balance(cooled, factor, share):
     folder, scene, table, _ = cooled
-    case, some = next(iter(looked_at(folder, "M")))
+    case, some = next(iter(looked_at(folder, "M", table)))
     warmth = warmth_of(scene, "M", table, [(case, some)])
     asked = warm_bearing(scene, "M", grown(some, factor))[1]
     stated = warmth.under(case, 1.0)

@@ -91,7 +91,7 @@ def place_of(at: Situation, name: str, sign: float) -> Place:
 
 @dataclass(frozen=True)
 class _Ends:
-    """A film by the ends of its bearing: `share` of it that these take, and `film` (5, n), m."""
+    """Films by the ends of their bearing: `share` of it that these take, and `film` (n,), m."""
 
     share: Floats
     film: Floats
@@ -101,7 +101,7 @@ def _ends(at: Situation) -> dict[str, _Ends]:
     """Films that a shaft floats in, and what the ends take of them: their gap is c − |e ± θ B/2|.
 
     The slope θ is that of `slopes` less the turn of the bores; ``alignment = "mean"`` takes the
-    mean of all points.
+    mean of all points. Loads that a film does not carry have none to close.
     """
     found = {}
     for _, concept, names in floating(at.scene.shaft, at.scene.journal):
@@ -111,12 +111,16 @@ def _ends(at: Situation) -> dict[str, _Ends]:
                 continue
             own = at.scene.journal.at(name)
             mean = own.alignment == "mean"
-            bore = slope[0, at.turns].mean(axis=0) if mean else from_film(own.alignment)
-            away = 0.5 * own.geometry.width * _moved(slope - bore)[:, at.turns]
             lies, film = place.position[:, at.turns], place.film[:, at.turns]
+            tilted = slope[:, at.turns]
+            carried = np.isfinite(film) & np.isfinite(tilted).all(axis=-1)
+            if not carried[0].any():
+                continue
+            bore = tilted[0, carried[0]].mean(axis=0) if mean else from_film(own.alignment)
+            away = 0.5 * own.geometry.width * _moved(tilted - bore)
             ends = [np.linalg.norm(lies + side, axis=-1) for side in (away, -away)]
             share = (np.maximum(*ends) - np.linalg.norm(lies, axis=-1)) / film
-            found[name] = _Ends(share, film)
+            found[name] = _Ends(share[carried], film[carried])
     return found
 
 
