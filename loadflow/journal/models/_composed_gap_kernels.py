@@ -16,6 +16,7 @@ from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._full_kernels import keep_full
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
+from loadflow.journal.models._small_systems import fill_upper
 from loadflow.numerics.lanes import LANES, put, take
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
@@ -407,14 +408,6 @@ def push(load, stiffness, z, c, s, force, along, aside):
     _add_modes(load, z, force * c, force * s)
     xx, yy = along * c * c + aside * s * s, along * s * s + aside * c * c
     _take_modes(stiffness, z, -xx, -(along - aside) * c * s, -yy)
-
-
-@inner
-def fill_upper(stiffness):
-    """Make a stiffness (4, 4) symmetric by its lower half."""
-    for a in range(4):
-        for b in range(a):
-            stiffness[b, a] = stiffness[a, b]
 
 
 @inner

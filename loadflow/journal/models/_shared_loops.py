@@ -16,7 +16,6 @@ from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
-    fill_upper,
     has_gap,
     narrowest,
     place,
@@ -39,7 +38,7 @@ from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
-from loadflow.journal.models._small_systems import solve_system
+from loadflow.journal.models._small_systems import fill_upper, solve_system
 from loadflow.journal.models._step_kernels import leaves_room
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models.composed_film import Composed, ComposedWork

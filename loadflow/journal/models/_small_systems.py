@@ -1,8 +1,8 @@
-"""Compiled: linear systems of a few unknowns, such as a shaft, or grooves and what feeds them."""
+"""Compiled: systems of a few unknowns, such as a shaft, or grooves and what feeds them."""
 
 from __future__ import annotations
 
-from loadflow.journal.models._compile import once
+from loadflow.journal.models._compile import inner, once
 
 
 @once
@@ -25,3 +25,11 @@ def solve_system(system, size):
     for j in range(size):
         system[j, size] /= system[j, j]
     return True
+
+
+@inner
+def fill_upper(stiffness):
+    """Make a stiffness (4, 4) symmetric by its lower half."""
+    for a in range(4):
+        for b in range(a):
+            stiffness[b, a] = stiffness[a, b]
