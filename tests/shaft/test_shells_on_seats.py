@@ -11,11 +11,12 @@ import xarray as xr
 from loadflow.errors import InputError
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.shaft_place import move_together
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages.effects.seats import SEATS
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.stages.shaft_in_films import films_together
 from loadflow.turbines import load_turbine
 
 TILT = load_turbine("nrel-5mw").rotor.tilt
@@ -189,6 +190,26 @@ def test_what_a_seat_holds_is_followed_in_motion_alone():
     scene_of(None, journal=film | FILM)
 
 
+@pytest.mark.parametrize(
+    ("second", "support"),
+    [
+        ({}, {"stiffness": "journal"}),
+        ({"seat": None}, {"stiffness": "journal"}),
+        ({}, {"radial": 1e9}),
+        ({"geometry": {"shape": {"kind": "tilting pads", "count": 4, "arc": 1.2}}}, FELT),
+    ],
+)
+def test_a_seat_does_not_hold_a_shaft_that_is_not_followed_in_two_films(second, support):
+    film = FILM | {"kind": "journal", "self_aligning": True, "seat": spherical(0.1)}
+    film |= {"geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3}}
+    own = {key: value for key, value in (film | second).items() if value is not None}
+    own["geometry"] = film["geometry"] | second.get("geometry", {})
+    beam = {"sections": [{"outer_diameter": 2.0}], "supports": [FELT, support]}
+    told = {"name": "seats", "results": ["journal.film"], "shaft": {"two_point": {"beam": beam}}}
+    with pytest.raises(InputError, match=r"support of bearing N .*followed where a shaft lies in"):
+        make_scene(told | {"bearings": {"N": film, "N2": own}})
+
+
 def test_a_plan_follows_shells_in_their_seats_where_the_accuracy_asks_for_it():
     beam = {"sections": [{"outer_diameter": 3.0, "inner_diameter": 1.5}]}
     film = {"self_aligning": True, "seat": {"kind": "spherical", "friction": 0.1, "radius": 1.9}}
@@ -196,7 +217,7 @@ def test_a_plan_follows_shells_in_their_seats_where_the_accuracy_asks_for_it():
     more = {"shaft": {"two_point": {"beam": beam}}, "loads": {"wind_speeds": [12.0], "seeds": 1}}
     plan = make_plan(scene_of(None, journal=film, **more))
     assert SEATS.is_on(plan.scene)
-    assert move_together(plan.scene, plan.scene.shaft.two_point)
+    assert move_together(plan.scene.shaft, plan.scene.journal, plan.scene.shaft.two_point)
     assert plan.accurate
     held = make_plan(scene_of(None, journal=film | {"motion": "quasi-static"}, **more))
     assert not SEATS.is_on(held.scene)
