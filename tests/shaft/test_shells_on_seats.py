@@ -12,6 +12,7 @@ from loadflow.errors import InputError
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.shaft_place import move_together
+from loadflow.scene.unused import unused_keys
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages.effects.seats import SEATS
@@ -154,6 +155,14 @@ def test_shells_begin_aligned_where_heavy_loads_begin_nearer_the_middle(loads, t
     scene = scene_of(spherical(1.0))
     path = films_together(scene, scene.shaft.two_point, steady, TILT).path
     assert size(path.tilt).max() < 1.2e-4
+
+
+@pytest.mark.parametrize("tilt", [True, False])
+def test_seats_that_are_followed_are_no_unused_keys(tilt):
+    scene = scene_of(spherical(0.1), accuracy="given")
+    films = scene.journal.model_copy(update={"tilt": tilt})
+    told = unused_keys(scene.model_copy(update={"journal": films}))
+    assert not {"journal.tilt", "journal.self_aligning", "journal.seat"} & {*told}
 
 
 def test_whether_all_shells_are_followed_does_not_hang_on_the_order_of_the_bearings():
