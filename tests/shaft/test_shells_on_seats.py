@@ -18,6 +18,7 @@ from loadflow.stages import journal, shaft
 from loadflow.stages.effects.seats import SEATS
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together
+from loadflow.stages.wear import touching_cycle
 from loadflow.turbines import load_turbine
 
 TILT = load_turbine("nrel-5mw").rotor.tilt
@@ -183,6 +184,24 @@ def test_films_on_seats_tell_their_tilt_and_are_those_of_the_path(loads):
     path = films_together(scene, scene.shaft.two_point, loads, TILT).path
     for k, name in enumerate(("N", "N2")):
         np.testing.assert_allclose(films[name]["tilt"].values, path.tilt[:, k])
+
+
+def test_bores_on_seats_are_worn_by_what_tilt_the_seat_leaves(loads):
+    scene, name = scene_of(spherical(0.02)), "N"
+    given = {"loads": loads, "shaft": shaft.bearing_loads(scene, None, {"loads": loads})}
+    case = type("Case", (), {"dlc": "4.1"})()
+    film = journal.orbit(scene, case, given)[name].to_dataset()
+    rubs = (film["time"] > 5.0) & (film["time"] < 8.0)
+    touching = film.assign(contact_share=0.5 * rubs)
+    asked = scene, scene.journal.at(name), touching, loads, given["shaft"].sel(bearing=name)
+    cycle = touching_cycle(*asked)
+    for k, column in enumerate(film["tilt"].values.T):
+        np.testing.assert_allclose(
+            cycle.tilt[:, k], np.interp(cycle.time, film["time"].values, column)
+        )
+    assert cycle.bend.shape == cycle.tilt.shape
+    aligned = touching_cycle(*asked[:2], touching.drop_vars("tilt"), *asked[3:])
+    assert aligned.tilt is aligned.bend is None
 
 
 def test_a_shaft_that_stands_at_first_turns_freely_on_rigid_bearings(loads):
