@@ -39,6 +39,7 @@ from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the
 from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
+from loadflow.scene.shaft_place import check_seats
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
@@ -256,6 +257,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
                 raise ValueError(f"{what}: it aligns itself; leave out takes_moment")
             if support.takes_moment and support.stiffness == "journal":
                 self.journal.check_moment(name, f"{what} and takes_moment = true")
+        check_seats(self.shaft, self.journal)
         return self
 
     @property

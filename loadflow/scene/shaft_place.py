@@ -1,9 +1,14 @@
-"""Which shafts lie in the clearances of several journal bearings, and so tilt in them."""
+"""Which shafts lie in the clearances of several journal bearings, and tilt or move with them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+import numpy as np
+
+from loadflow.journal.heat import Heat
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import why_not
 from loadflow.scene.journal import Journal
 from loadflow.scene.shaft import Shaft
 from loadflow.shaft import Concept
@@ -48,3 +53,52 @@ def films_of(concept: Concept, journal: Journal) -> list[str]:
 def floats_in_films(shaft: Shaft, journal: Journal) -> bool:
     """Whether all films that a shaft floats in are fed back to it; True where it floats in none."""
     return all(name in shaft.coupled for _, _, films in floating(shaft, journal) for name in films)
+
+
+def move_together(shaft: Shaft, journal: Journal, concept: Concept) -> bool:
+    """Whether shaft and films of a suspension are followed together.
+
+    All its bearings are two journal bearings whose films the shaft's supports are, in motion, by
+    the rung "reduced": with tilt, or on seats that hold the shaft.
+    """
+    if concept.beam is None or len(concept.bearings) != 2 or not journal.in_motion:
+        return False
+    films = [support.stiffness == "journal" for support in concept.beam.supports]
+    if films != [True, True] or journal.rung != "reduced":
+        return False
+    tilting = journal.tilting if journal.tilt else ()
+    known = set(concept.bearings) <= {*tilting, *seats_felt(shaft, journal, concept)}
+    return known and all(_followable(journal.at(name)) for name in concept.bearings)
+
+
+def seats_felt(shaft: Shaft, journal: Journal, concept: Concept) -> list[str]:
+    """Bearings of a suspension whose seats hold the shaft: their supports take a moment."""
+    felt = {name for name, support in shaft.coupled.items() if support.takes_moment}
+    return [name for name in concept.bearings if name in journal.on_seats and name in felt]
+
+
+def _followable(options: Journal) -> bool:
+    """Whether the loop knows the film of a bearing."""
+    film, line = options.film_model, Line(tilt=np.zeros((1, 2)))
+    plain = options.heat is None or isinstance(options.heat, Heat)
+    pads = options.geometry.shape.segments
+    return plain and not pads and why_not("in_motion", film, options.geometry, line) is None
+
+
+def check_seats(shaft: Shaft, journal: Journal) -> None:
+    """Refuse supports that are to take the moment of a seat which no shaft is followed in.
+
+    Raises
+    ------
+    ValueError
+        Naming the bearing, and what helps.
+    """
+    for concept in shaft.concepts:
+        felt = seats_felt(shaft, journal, concept)
+        if felt and not move_together(shaft, journal, concept):
+            raise ValueError(
+                f"shaft: support of bearing {felt[0]} with takes_moment = true: what a seat holds "
+                "is followed where a shaft lies in two films, without pads or heat over the area; "
+                'give both its bearings supports of stiffness = "journal" and takes_moment = true, '
+                "and those that align themselves a seat, or leave out takes_moment"
+            )

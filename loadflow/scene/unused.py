@@ -16,6 +16,7 @@ from loadflow.scene.places import OF_COLLARS, SHARED
 from loadflow.scene.results import USUAL
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section, idle_keys
+from loadflow.scene.shaft_place import seats_felt
 from loadflow.scene.unused_rolling import mounted, of_each_rolling, of_friction
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
@@ -311,13 +312,14 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
             "tilt",
             "the shaft is rigid and brings no moment; give its suspension a beam",
         )
-    seated = {name for name, one in scene.shaft.coupled.items() if one.takes_moment}
-    if journal.tilt and not scene.journal.tilting and not seated & {*scene.journal.on_seats}:
+    shaft = scene.shaft
+    held = any(seats_felt(shaft, scene.journal, concept) for concept in shaft.concepts)
+    if journal.tilt and not scene.journal.tilting and not held:
         yield "tilt", "the bearings are self_aligning"
     if journal.self_aligning:
         yield "alignment", "the bearing is self_aligning"
-    bends = any(map(scene.shaft.bends_at, scene.journal.bearings))
-    if not scene.journal.tilt and not (scene.asks and bends):
+    bends = any(map(shaft.bends_at, scene.journal.bearings))
+    if not (scene.journal.tilt or held or (scene.asks and bends)):
         for key in ("alignment", "self_aligning"):
             yield key, "only a film with tilt knows it; set journal.tilt, with a beam as the shaft"
     if "grading" not in RUNGS[journal.rung].at_rest:

@@ -16,18 +16,13 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
+from loadflow.scene.shaft_place import move_together, seats_felt
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.bores import ALIGNED, bores, turned_bores, with_bores
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import labelled
-from loadflow.stages.shaft_in_films import (
-    STILL,
-    move_together,
-    runs,
-    seats_felt,
-    shaft_on_films,
-)
+from loadflow.stages.shaft_in_films import STILL, runs, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
@@ -56,9 +51,9 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     speed = series["speed"].values.astype(float)
     parts = [
         _with_films(scene, concept, series, tilt)
-        if move_together(scene, concept) and runs(speed)
+        if move_together(scene.shaft, scene.journal, concept) and runs(speed)
         else _freely(concept, series, tilt)
-        if seats_felt(scene, concept)
+        if seats_felt(scene.shaft, scene.journal, concept)
         else _suspended(scene, concept, force, moment, speed, tilt)
         for concept in scene.shaft.concepts
     ]
@@ -253,7 +248,7 @@ def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
     if not scene.shaft.coupled:
         return _described(scene)
-    if any(move_together(scene, concept) for concept in scene.shaft.concepts):
+    if any(move_together(scene.shaft, scene.journal, concept) for concept in scene.shaft.concepts):
         return "on journal, in motion"
     kinds = {
         f"{support.stiffness}, tilting"

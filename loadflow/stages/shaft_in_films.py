@@ -19,12 +19,11 @@ from loadflow.errors import SolverError
 from loadflow.journal import Control, Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
-from loadflow.journal.line import Line
-from loadflow.journal.models.model import why_not
 from loadflow.journal.models.shared_path import Lying, Seats, SharedPath, follow_shared
 from loadflow.numerics.convergence import Convergence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import move_together
 from loadflow.shaft import Concept
 from loadflow.shaft.in_films import ShaftInFilms
 from loadflow.shaft.reactions import films_dataset, shaft_in_films
@@ -57,36 +56,6 @@ class FilmsTogether:
 
     path: SharedPath
     temperature: tuple[float | None, ...]
-
-
-def move_together(scene: Scene, concept: Concept) -> bool:
-    """Whether shaft and films of a suspension are followed together.
-
-    All its bearings are two journal bearings whose films the shaft's supports are, in motion, by
-    the rung "reduced": with tilt, or on seats that hold the shaft.
-    """
-    if concept.beam is None or len(concept.bearings) != 2 or not scene.journal.in_motion:
-        return False
-    films = [support.stiffness == "journal" for support in concept.beam.supports]
-    if films != [True, True] or scene.journal.rung != "reduced":
-        return False
-    tilting = scene.journal.tilting if scene.journal.tilt else ()
-    known = set(concept.bearings) <= {*tilting, *seats_felt(scene, concept)}
-    return known and all(_followable(scene.journal.at(name)) for name in concept.bearings)
-
-
-def seats_felt(scene: Scene, concept: Concept) -> list[str]:
-    """Bearings of a suspension whose seats hold the shaft: their supports take a moment."""
-    felt = {name for name, support in scene.shaft.coupled.items() if support.takes_moment}
-    return [name for name in concept.bearings if name in scene.journal.on_seats and name in felt]
-
-
-def _followable(options: Journal) -> bool:
-    """Whether the loop knows the film of a bearing."""
-    film, line = options.film_model, Line(tilt=np.zeros((1, 2)))
-    plain = options.heat is None or isinstance(options.heat, Heat)
-    pads = options.geometry.shape.segments
-    return plain and not pads and why_not("in_motion", film, options.geometry, line) is None
 
 
 def runs(speed: Floats) -> bool:
@@ -179,7 +148,7 @@ def in_motion(
 
     speed = loads["speed"].values.astype(float)
     concept = next((one for one in scene.shaft.concepts if bearing in one.bearings), None)
-    if concept is None or not move_together(scene, concept) or not runs(speed):
+    if concept is None or not move_together(scene.shaft, scene.journal, concept) or not runs(speed):
         return follow(scene.journal.at(bearing), loads, shaft, start)
     both = films_together(scene, concept, loads, load_turbine(scene.turbine.name).rotor.tilt)
     return both.path.paths[concept.bearings.index(bearing)]

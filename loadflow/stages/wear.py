@@ -90,6 +90,10 @@ def touching_cycle(
     line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
     force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
     lying = {key: _between(when, time, values) for key, values in line.items()}
+    if not options.tilt and "tilt" in film:  # a shell on a seat, which leaves that of the shaft
+        lying["tilt"] = _between(when, film["time"].values, film["tilt"].values.astype(float))
+        bent = to_film(shaft["curvature"].transpose("time", "axis").values.astype(float))
+        lying["bend"] = _between(when, time, bent)
     return Cycle(
         when,
         _between(when, time, force),

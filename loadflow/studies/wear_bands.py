@@ -24,7 +24,7 @@ BATCHES = 5.0
 """Factor by which published coefficients of wear of one pair of materials differ from batch to
 batch, at most of 2 … 5 (docs/mixed-friction.md)."""
 
-_FILM = ("time", "speed", "contact_share", "temperature")
+_FILM = ("time", "speed", "contact_share", "temperature", "tilt")
 _SHAFT = ("force", "tilt", "curvature")
 
 

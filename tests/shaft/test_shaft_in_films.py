@@ -11,6 +11,7 @@ import xarray as xr
 from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
 from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.shaft_place import move_together
 from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint, reactions
 from loadflow.shaft import bearing_loads as suspended
 from loadflow.shaft.reactions import shaft_in_films
@@ -19,7 +20,7 @@ from loadflow.stages import shaft_in_films as shaft_in_films_stage
 from loadflow.stages.film_past import AT_REST
 from loadflow.stages.film_support import film_model
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.stages.shaft_in_films import films_together
 from loadflow.studies.compare_factor import at_place, grown
 from loadflow.turbines import load_turbine
 
@@ -341,15 +342,19 @@ def test_films_that_store_heat_cool_down_to_their_balance():
         assert np.ptp(warm) > 0.1
 
 
+def followed(scene: Scene, concept: TwoPoint) -> bool:
+    return move_together(scene.shaft, scene.journal, concept)
+
+
 def test_they_move_together_where_both_bearings_are_films_in_motion():
     own, rigid = {"stiffness": "journal", "takes_moment": True}, {"takes_moment": True}
     concept = scene_of().shaft.concepts[0]
-    assert move_together(scene_of(), concept)
+    assert followed(scene_of(), concept)
     mixed = scene_of([own, rigid])
-    assert not move_together(mixed, mixed.shaft.concepts[0])
-    assert not move_together(scene_of(motion="quasi-static"), concept)
-    assert not move_together(scene_of(rung="grid"), concept)
-    assert not move_together(scene_of(), replace(concept, beam=None))
+    assert not followed(mixed, mixed.shaft.concepts[0])
+    assert not followed(scene_of(motion="quasi-static"), concept)
+    assert not followed(scene_of(rung="grid"), concept)
+    assert not followed(scene_of(), replace(concept, beam=None))
 
 
 class _Case:

@@ -11,11 +11,14 @@ import xarray as xr
 from loadflow.errors import InputError
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.shaft_place import move_together
+from loadflow.scene.unused import unused_keys
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages.effects.seats import SEATS
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import films_together, move_together
+from loadflow.stages.shaft_in_films import films_together
+from loadflow.stages.wear import touching_cycle
 from loadflow.turbines import load_turbine
 
 TILT = load_turbine("nrel-5mw").rotor.tilt
@@ -155,6 +158,14 @@ def test_shells_begin_aligned_where_heavy_loads_begin_nearer_the_middle(loads, t
     assert size(path.tilt).max() < 1.2e-4
 
 
+@pytest.mark.parametrize("tilt", [True, False])
+def test_seats_that_are_followed_are_no_unused_keys(tilt):
+    scene = scene_of(spherical(0.1), accuracy="given")
+    films = scene.journal.model_copy(update={"tilt": tilt})
+    told = unused_keys(scene.model_copy(update={"journal": films}))
+    assert not {"journal.tilt", "journal.self_aligning", "journal.seat"} & {*told}
+
+
 def test_whether_all_shells_are_followed_does_not_hang_on_the_order_of_the_bearings():
     film = FILM | {"kind": "journal", "self_aligning": True, "seat": spherical(0.1)}
     film |= {"geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3}}
@@ -175,6 +186,24 @@ def test_films_on_seats_tell_their_tilt_and_are_those_of_the_path(loads):
         np.testing.assert_allclose(films[name]["tilt"].values, path.tilt[:, k])
 
 
+def test_bores_on_seats_are_worn_by_what_tilt_the_seat_leaves(loads):
+    scene, name = scene_of(spherical(0.02)), "N"
+    given = {"loads": loads, "shaft": shaft.bearing_loads(scene, None, {"loads": loads})}
+    case = type("Case", (), {"dlc": "4.1"})()
+    film = journal.orbit(scene, case, given)[name].to_dataset()
+    rubs = (film["time"] > 5.0) & (film["time"] < 8.0)
+    touching = film.assign(contact_share=0.5 * rubs)
+    asked = scene, scene.journal.at(name), touching, loads, given["shaft"].sel(bearing=name)
+    cycle = touching_cycle(*asked)
+    for k, column in enumerate(film["tilt"].values.T):
+        np.testing.assert_allclose(
+            cycle.tilt[:, k], np.interp(cycle.time, film["time"].values, column)
+        )
+    assert cycle.bend.shape == cycle.tilt.shape
+    aligned = touching_cycle(*asked[:2], touching.drop_vars("tilt"), *asked[3:])
+    assert aligned.tilt is aligned.bend is None
+
+
 def test_a_shaft_that_stands_at_first_turns_freely_on_rigid_bearings(loads):
     still = loads.assign(speed=loads["speed"] * (loads["time"] > 1.0))
     found = shaft.bearing_loads(scene_of(spherical(0.02)), None, {"loads": still})
@@ -189,6 +218,26 @@ def test_what_a_seat_holds_is_followed_in_motion_alone():
     scene_of(None, journal=film | FILM)
 
 
+@pytest.mark.parametrize(
+    ("second", "support"),
+    [
+        ({}, {"stiffness": "journal"}),
+        ({"seat": None}, {"stiffness": "journal"}),
+        ({}, {"radial": 1e9}),
+        ({"geometry": {"shape": {"kind": "tilting pads", "count": 4, "arc": 1.2}}}, FELT),
+    ],
+)
+def test_a_seat_does_not_hold_a_shaft_that_is_not_followed_in_two_films(second, support):
+    film = FILM | {"kind": "journal", "self_aligning": True, "seat": spherical(0.1)}
+    film |= {"geometry": {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3}}
+    own = {key: value for key, value in (film | second).items() if value is not None}
+    own["geometry"] = film["geometry"] | second.get("geometry", {})
+    beam = {"sections": [{"outer_diameter": 2.0}], "supports": [FELT, support]}
+    told = {"name": "seats", "results": ["journal.film"], "shaft": {"two_point": {"beam": beam}}}
+    with pytest.raises(InputError, match=r"support of bearing N .*followed where a shaft lies in"):
+        make_scene(told | {"bearings": {"N": film, "N2": own}})
+
+
 def test_a_plan_follows_shells_in_their_seats_where_the_accuracy_asks_for_it():
     beam = {"sections": [{"outer_diameter": 3.0, "inner_diameter": 1.5}]}
     film = {"self_aligning": True, "seat": {"kind": "spherical", "friction": 0.1, "radius": 1.9}}
@@ -196,7 +245,7 @@ def test_a_plan_follows_shells_in_their_seats_where_the_accuracy_asks_for_it():
     more = {"shaft": {"two_point": {"beam": beam}}, "loads": {"wind_speeds": [12.0], "seeds": 1}}
     plan = make_plan(scene_of(None, journal=film, **more))
     assert SEATS.is_on(plan.scene)
-    assert move_together(plan.scene, plan.scene.shaft.two_point)
+    assert move_together(plan.scene.shaft, plan.scene.journal, plan.scene.shaft.two_point)
     assert plan.accurate
     held = make_plan(scene_of(None, journal=film | {"motion": "quasi-static"}, **more))
     assert not SEATS.is_on(held.scene)

@@ -8,14 +8,18 @@ import numpy as np
 
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import Suspensions, floating, floats_in_films
+from loadflow.scene.shaft_place import (
+    Suspensions,
+    floating,
+    floats_in_films,
+    move_together,
+)
 from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import move_together
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import always_turns
 
@@ -188,7 +192,7 @@ def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
             changed[kind] = replace(concept, beam=concept.beam.free_in_films())
     found = journal.model_copy(update={"shaft": scene.shaft.model_copy(update=changed)})
     together = all(
-        move_together(found, concept)
+        move_together(found.shaft, found.journal, concept)
         for _, concept, _ in of(found.shaft, found.journal)
         if concept.beam is not None
     )

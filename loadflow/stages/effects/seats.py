@@ -10,7 +10,7 @@ import numpy as np
 
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import films_of, on_seats
+from loadflow.scene.shaft_place import films_of, move_together, on_seats, seats_felt
 from loadflow.shaft import Concept
 from loadflow.stages.effects.clearances import (
     CLEARANCES,
@@ -23,7 +23,6 @@ from loadflow.stages.effects.clearances import (
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
-from loadflow.stages.shaft_in_films import move_together, seats_felt
 
 
 def shaft_slopes(at: Situation, name: str) -> Floats:
@@ -127,9 +126,9 @@ def _followed(scene: Scene) -> bool:
     Plans choose section by section: that of the shaft says so, as far as the films can be.
     """
     found = [concept for _, concept, _ in on_seats(scene.shaft, scene.journal)]
-    felt = {name for concept in found for name in seats_felt(scene, concept)}
+    felt = {name for concept in found for name in seats_felt(scene.shaft, scene.journal, concept)}
     chosen = scene.journal.in_motion and scene.journal.rung == "reduced"
-    together = all(move_together(scene, concept) for concept in found)
+    together = all(move_together(scene.shaft, scene.journal, concept) for concept in found)
     return felt == {*scene.journal.on_seats} and (together or not chosen)
 
 
