@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -224,20 +224,22 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
 
 
 def _samples(
-    scene: Scene, folder: Path, cases: Iterable[str]
+    scene: Scene, folder: Path, cases: Sequence[str]
 ) -> Iterator[tuple[str, str, xr.Dataset]]:
     """Yield place, case and reduced samples of all rolling bearings that turn with the rotor."""
     for place, part in scene.rolling.bearings.items():
         if part.oscillation is not None:
             continue
-        for case in cases:
-            samples = reduced_samples(folder / "reduction" / f"{case}.h5", place)
+        for path in sorted((folder / "reduction").glob("*.h5")):
+            if path.stem not in cases:
+                continue
+            samples = reduced_samples(path, place)
             radial = to_rolling(samples["force"].transpose("sample", "axis").values)
             size = np.linalg.norm(radial, axis=1)
             speed = np.abs(samples["speed"].values)
             order = {int(np.argmin(size)), int(np.argmin(speed)), int(np.argmax(size))}
             spread = np.linspace(0, samples.sizes["sample"] - 1, _SPREAD).round().astype(int)
-            yield place, case, samples.isel(sample=sorted({*spread.tolist(), *order}))
+            yield place, path.stem, samples.isel(sample=sorted({*spread.tolist(), *order}))
 
 
 _SPREAD = 12
