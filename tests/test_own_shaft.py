@@ -6,6 +6,7 @@ import tomllib
 import pytest
 
 from loadflow.errors import InputError
+from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.turbines import load_turbine
 
@@ -145,3 +146,21 @@ def test_a_beam_without_films_keeps_the_section_of_the_library():
     scene, section = _beam_of(shaft=shaft, results=["loads.statistics"])
     assert section.outer_diameter == 1.04
     assert not any("beam" in said for said in scene.taken)
+
+
+def test_bearings_that_are_wider_than_the_distance_between_them_are_told():
+    wide = {"geometry": {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}}
+    data = {"name": "near", "results": ["journal.film"], "journal": wide}
+    near, far = (make_scene(data | {"shaft": {"two_point": {"span": span}}}) for span in (2.0, 2.3))
+    assert any("overlap by 0.25 m" in said for said in near.taken)
+    assert not any("overlap" in said for said in far.taken)
+
+
+@pytest.mark.parametrize("turbine", ["windpact-1.5mw", "nrel-5mw", "iea-15mw"])
+def test_sized_journal_bearings_fit_beside_each_other(turbine):
+    names = [name for name in candidates_of(turbine) if name.startswith("journal")]
+    assert len(names) > 3
+    for name in names:
+        data = {"name": "fits", "turbine": {"name": turbine}, "bearings": [name]}
+        scene = make_scene(data | {"results": ["journal.film"]})
+        assert not any("overlap" in said for said in scene.taken)

@@ -55,6 +55,10 @@ STEEL = 2.1e11  # Pa
 REALISED = 6
 """Seeds of a wind speed where a mean over seeds is told."""
 
+MEASURED_AT = {"hub_to_first": 1.0, "span": 2.4}
+"""Places of the bearings of the direct drive, m, at which its sizes were measured; sized ones have
+others since."""
+
 BLADES = "bending of the blades"
 TOWER = "sway of the tower, twist of the drivetrain"
 GRIDS = {"grid of the wind finer than 11 × 48": (11, 48), "… than 11 × 144": (11, 144)}
@@ -104,6 +108,8 @@ def scene_of(
     known = machine(turbine)
     shaft = {place: dict(keys) for place, keys in known["shaft"].items()}
     two = next(place for place in shaft if place != "moment")
+    if two == "direct_drive":
+        shaft[two] |= MEASURED_AT
     rolling = known["candidates"]["four-point"]
     inner = rolling["M"]["geometry"]
     side, mean = 2.4 * inner["ball_diameter"], inner["pitch_diameter"] / 2
@@ -293,12 +299,10 @@ def clearances(known: Found) -> Found:
 
 
 def in_clearances(turbine: str, speed: float) -> Scene:
-    """Scene of `clearances`: sized bores, aligned with the shaft as it lies at its usual load.
-
-    On two points, as the shaft of a direct drive is too short for bearings so wide.
-    """
+    """Scene of `clearances`: sized bores, aligned with the shaft as it lies at its usual load."""
     film = {"motion": "transient", "tilt": True, "rung": "reduced", "alignment": "mean"}
-    shaft = {"two_point": machine(turbine)["shaft"].get("two_point", {}) | {"beam": {}}}
+    known = machine(turbine)["shaft"]
+    shaft = {place: dict(keys) | {"beam": {}} for place, keys in known.items() if place != "moment"}
     keys: dict[str, Any] = {"loads": _tabulated(speed), "accuracy": "given", "results": FILM_ALONE}
     return scene_of(turbine, film=film, sized=True, shaft=shaft | {"moment": {}}, **keys)
 

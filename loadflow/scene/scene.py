@@ -39,7 +39,7 @@ from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the
 from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
-from loadflow.scene.shaft_place import check_seats
+from loadflow.scene.shaft_place import check_seats, overlapping
 from loadflow.scene.thrust import Thrust, check_thrust
 from loadflow.scene.tolerances import Toleranced, Tolerances
 from loadflow.scene.turbine import Turbine
@@ -262,13 +262,14 @@ class Scene(Section, WithFittingBeams, BaseModel):
 
     @property
     def taken(self) -> list[str]:
-        """What neither scene nor turbine state, and what is taken instead."""
+        """What neither scene nor turbine state, what is taken instead; bearings that overlap."""
         shaft = self.shaft.model_dump(mode="json", exclude_none=True)
         films = self.journal if self.wants("journal") else None
         rolling = self.rolling if self.wants("rolling") else None
         lines, name = taken(self.turbine.name, shaft), self.turbine.name
         if films is not None:
             lines += fitted(shaft, films, self._open_beams)
+            lines += overlapping(self.shaft, films)
         return [*lines, *usual_bearings(name, films, rolling)]
 
     def wants(self, room: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from itertools import pairwise
 
 import numpy as np
 
@@ -102,3 +103,34 @@ def check_seats(shaft: Shaft, journal: Journal) -> None:
                 'give both its bearings supports of stiffness = "journal" and takes_moment = true, '
                 "and those that align themselves a seat, or leave out takes_moment"
             )
+
+
+def overlapping(shaft: Shaft, journal: Journal) -> Iterator[str]:
+    """Say which journal bearings of a suspension are wider than the distance between them.
+
+    Parameters
+    ----------
+    shaft : Shaft
+        The suspensions.
+    journal : Journal
+        The bearings.
+
+    Examples
+    --------
+    >>> from loadflow.scene import Journal
+    >>> from loadflow.scene.shaft import Shaft
+    >>> from loadflow.shaft import TwoPoint
+    >>> print(*overlapping(Shaft(two_point=TwoPoint(span=2.0)), Journal()))
+    bearings N, N2: 2.25 m and 2.25 m wide, 2 m apart: they overlap by 0.25 m along the shaft
+    """
+    for concept in shaft.concepts:
+        where = dict(zip(concept.bearings, concept.positions))
+        places = [name for name in concept.bearings if name in journal.bearings]
+        for one, other in pairwise(places):
+            widths = [journal.at(name).geometry.width for name in (one, other)]
+            apart = where[other] - where[one]
+            if (over := sum(widths) / 2 - apart) > 0:
+                yield (
+                    f"bearings {one}, {other}: {widths[0]:g} m and {widths[1]:g} m wide, "
+                    f"{apart:.3g} m apart: they overlap by {over:.2g} m along the shaft"
+                )
