@@ -13,7 +13,6 @@ from loadflow.journal import (
     Guembel,
     Heat,
     JournalBearing,
-    LocalShell,
     Lubricant,
     MassConserving,
     Reynolds,
@@ -192,7 +191,6 @@ REFUSED = {
         {"supply": Supply((Groove(1.0, length=0.05, pressure=2e5, shape="circle"),))},
         r"grooves\[0\].shape",
     ),
-    "shell": ({"shell": LocalShell(1e-12)}, "shell"),
 }  # fmt: skip
 
 
