@@ -3,9 +3,9 @@
 A creeping film is as thick all over the place where it is pressed, and ends there within a few
 cells: no closed form is near it, and Newton's method does not find it at once. A faster film is
 found at once, and a standing shaft rests on its asperities alone; from either the speed goes to the
-one that is wanted in steps as long as Newton's method follows. Where oil ruptures and is conserved,
-first pressures go too far, and open the gap by as much: there a bore that is rigid at first gives
-way in such steps.
+one that is wanted in steps as long as Newton's method follows. Where the law of the
+ruptured film has a kink, first pressures go too far, and open the gap by as much: there a bore that
+is rigid at first gives way in such steps.
 """
 
 from __future__ import annotations
@@ -82,8 +82,7 @@ class Creep:
 
     def places(self, speed: float) -> Iterator[Array]:
         """Places (4,) at a `speed`, rad/s, that the ways there have come to; fill the unknowns."""
-        law = self.model.units.law
-        if speed != 0.0 and not law.smooth:
+        if speed != 0.0 and not self.model.units.law.smooth:
             found = self.from_rigid(speed)
             if found is not None:
                 yield found

@@ -29,9 +29,6 @@ class Axial(NamedTuple):
         q at mid-plane is middle · q.
     end_weight : float
         Width that belongs to the bearing end itself.
-    joints : array of int (j,)
-        Inner points at which stretches meet: those of the points of no width, which follow the
-        inner ones, of `stretched_width`.
     width, widest : float
         Sum of the weights, and largest one.
     """
@@ -105,6 +102,9 @@ class Nodes(NamedTuple):
         of the upper half: the highest two may be small by chance where a steep end is missed.
     below : array (m,)
         Share of the width of an inner point that lies on its side of smaller z.
+    joints : array of int (j,)
+        Inner points at which stretches meet: those of the points of no width, which follow the
+        inner ones, of `stretched_width`.
     width, widest : float
         Sum of the weights, and largest one.
     """
