@@ -53,6 +53,10 @@ class Shaft(Section, BaseModel):
         """The suspensions of the shaft that the scene has."""
         return tuple(self.suspensions.values())
 
+    def concept_at(self, place: str) -> Concept | None:
+        """The suspension with a bearing at a place; None where none has one."""
+        return next((one for one in self.concepts if place in one.bearings), None)
+
     @property
     def bearings(self) -> tuple[str, ...]:
         """Names of the bearings that the scene has loads of."""

@@ -26,7 +26,7 @@ from loadflow.shaft import Concept
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.effects.situation import SWING
 from loadflow.stages.film_of_bearing import equilibria
-from loadflow.stages.frames import from_film
+from loadflow.stages.frames import from_film, slope_of
 from loadflow.stages.labelling import label
 from loadflow.stages.turning import SLOWEST
 
@@ -182,9 +182,7 @@ def slope_in_clearances(
         own = scene.journal.at(name).model_copy(update={"tilt": False})
         force = loads["force"].sel(bearing=name).transpose("time", "axis").values.astype(float)
         places.append(from_film(equilibria(own, force, speed).eccentricity))
-    moved = (places[1] - places[0]) / (where[last] - where[first])
-    # what moves along y turns about z, what moves along z about −y
-    return np.stack([0.0 * moved[:, 0], -moved[:, 2], moved[:, 1]], axis=-1)
+    return slope_of((places[1] - places[0]) / (where[last] - where[first]))
 
 
 def usual_loads(scene: Scene) -> UsualLoads:

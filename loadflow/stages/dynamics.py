@@ -189,7 +189,8 @@ def _loads(mean: xr.Dataset, name: str) -> dict[str, Any]:
 
 def _takes_moment(scene: Scene, name: str) -> bool:
     """Whether the support of a bearing takes the moment of the shaft."""
-    (concept,) = (one for one in scene.shaft.concepts if name in one.bearings)
+    concept = scene.shaft.concept_at(name)
+    assert concept is not None
     if concept.beam is None:
         return len(concept.bearings) == 1
     supports = concept.beam.supports_of(len(concept.bearings))

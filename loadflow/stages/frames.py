@@ -31,6 +31,19 @@ def from_film(vector: ArrayLike) -> Floats:
     return np.stack([np.zeros_like(first), second, -first], axis=-1)
 
 
+def slope_of(moved: Floats) -> Floats:
+    """Slope of a shaft, (..., 3), rad, that moves by `moved` (..., 3) with each unit of its length.
+
+    What moves along y turns about z, what moves along z about −y; both in the cube.
+    """
+    return np.stack([np.zeros_like(moved[..., 0]), -moved[..., 2], moved[..., 1]], axis=-1)
+
+
+def moved_by(slope: Floats) -> Floats:
+    """How far a shaft of a slope (..., 3), rad, moves with each unit of its length; the inverse."""
+    return np.stack([np.zeros_like(slope[..., 0]), slope[..., 2], -slope[..., 1]], axis=-1)
+
+
 def to_rolling(vector: Floats) -> Floats:
     """Turn (..., x, y, z) of the cube into (y, z, x): the bearing axis comes last."""
     return vector[..., [1, 2, 0]]

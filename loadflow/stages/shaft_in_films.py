@@ -147,7 +147,7 @@ def in_motion(
     from loadflow.turbines import load_turbine
 
     speed = loads["speed"].values.astype(float)
-    concept = next((one for one in scene.shaft.concepts if bearing in one.bearings), None)
+    concept = scene.shaft.concept_at(bearing)
     if concept is None or not move_together(scene.shaft, scene.journal, concept) or not runs(speed):
         return follow(scene.journal.at(bearing), loads, shaft, start)
     both = films_together(scene, concept, loads, load_turbine(scene.turbine.name).rotor.tilt)

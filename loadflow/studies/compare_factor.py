@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,8 @@ from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.studies.compare_seeds import Draw
+from loadflow.stages.frames import slope_of
+from loadflow.studies.compare_seeds import Draw, of_extreme, power_of_load
 from loadflow.tribology.film import short_bearing
 
 SAMPLES = 40
@@ -102,6 +104,46 @@ def film_factors(value: Callable[[float, float], float], limit: float) -> tuple[
 def of_load(value: Callable[[float, float], float], load: float) -> float:
     """A value of a film with a factor on the load alone."""
     return value(load, 1.0)
+
+
+def film_margin(
+    about: Margin,
+    value: Callable[[float, float], float],
+    bearing: Journal | AnyAxial,
+    whose: str,
+    allowed: float,
+    seen: xr.DataArray,
+    pick: Callable[[np.ndarray], float],
+) -> Margin:
+    """Margin of a smallest film or a largest pressure, with what else would bring it to its limit.
+
+    Parameters
+    ----------
+    about : Margin
+        Where and when, and whose error by models it has: that of a smallest film, or of a pressure.
+    value : callable
+        Film, m, or pressure, Pa, with factors on load and viscosity.
+    bearing : Journal or bearing of pads
+        What carries.
+    whose : str
+        The bearing, in words.
+    allowed : float
+        Limit in the model of `value`.
+    seen : xarray.DataArray
+        Extremes of the run, by load case.
+    pick : callable
+        Which of these it is of: `numpy.nanmin` of a film, `numpy.nanmax` of a pressure.
+    """
+    change = ""
+    if about.models[1] == "minimum film":
+        factor, thinner = film_factors(value, allowed)
+        if thinner > NEVER / WIDEST:
+            change = f"{whose}: {oil_told(bearing, thinner)}"
+    else:
+        factor = pressure_factor(value, allowed)
+    power = power_of_load(partial(of_load, value), factor, WIDEST)
+    drawn = of_extreme(seen, pick, factor, power)
+    return replace(about, factor=factor, change=change, drawn=drawn, power=power)
 
 
 def pressure_factor(value: Callable[[float, float], float], limit: float) -> float:
@@ -198,7 +240,7 @@ def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
     a film give way counts with it.
     """
     own = shaft.sel(bearing=place)
-    concept = next((one for one in scene.shaft.concepts if place in one.bearings), None)
+    concept = scene.shaft.concept_at(place)
     if concept is None or len(concept.bearings) != 2 or "displacement" not in shaft:
         return own
     distance = concept.positions[1] - concept.positions[0]
@@ -206,10 +248,8 @@ def at_place(scene: Scene, shaft: xr.Dataset, place: str) -> xr.Dataset:
     for name, along in zip(concept.bearings, (-distance, distance)):
         support = scene.shaft.coupled.get(name)
         if support is not None and support.stiffness == "journal":
-            slope = shaft["displacement"].sel(bearing=name, drop=True) / along
-            # what moves along y turns about z, what moves along z about −y
-            turned = [0.0 * slope.sel(axis="x"), -slope.sel(axis="z"), slope.sel(axis="y")]
-            parts.append(xr.concat(turned, "axis").assign_coords(axis=shaft["axis"]))
+            moved = shaft["displacement"].sel(bearing=name, drop=True).transpose(..., "axis")
+            parts.append(moved.copy(data=slope_of(moved.values / along)))
             largest.append(scene.journal.at(name).geometry.clearance / abs(distance))
     if not parts:
         return own

@@ -22,17 +22,13 @@ from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
 from loadflow.stages.turning import of_running
 from loadflow.studies.compare_factor import (
-    NEVER,
     SAMPLES,
     WIDEST,
     Margin,
     at_time,
-    film_factors,
+    film_margin,
     grown,
     largest_factor,
-    of_load,
-    oil_told,
-    pressure_factor,
     reduced_samples,
     series_of,
 )
@@ -143,20 +139,9 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
             yield Margin(math.nan, place, case, uncounted=why)
             continue
         allowed = limit / seen * usual  # motion changes a film by the same share there
-        change = ""
-        if answer == "minimum_film":
-            factor, thinner = film_factors(value, allowed)
-            if thinner > NEVER / WIDEST:
-                change = f"{place}: {oil_told(stated, thinner)}"
-        else:
-            factor = pressure_factor(value, allowed)
-        power = power_of_load(partial(of_load, value), factor, WIDEST)
-        drawn = of_extreme(table[name], pick, factor, power)
         models = "journal.film", answer.replace("_", " ")
-        yield Margin(
-            factor, place, case, f"{what} in {place}", change, drawn, time=time, models=models,
-            power=power,
-        )  # fmt: skip
+        about = Margin(math.nan, place, case, f"{what} in {place}", time=time, models=models)
+        yield film_margin(about, value, stated, place, allowed, table[name], pick)
 
 
 def _standing_margin(

@@ -17,19 +17,13 @@ from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import follows, lies
 from loadflow.studies.compare_factor import (
-    NEVER,
-    WIDEST,
     Margin,
     at_time,
-    film_factors,
+    film_margin,
     grown,
-    of_load,
-    oil_told,
-    pressure_factor,
     series_of,
 )
 from loadflow.studies.compare_result import Number
-from loadflow.studies.compare_seeds import of_extreme, power_of_load
 from loadflow.studies.pad_films import pad_films, span_of, tabulated
 
 _TOLD = 0.01  # share by which films solved again differ from those of a run before it is told
@@ -77,19 +71,10 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
         allowed = limit * usual / seen  # what rungs differ by does not pass for a reserve
         if abs(usual / seen - 1.0) > _TOLD:
             told += f" (solved again {100 * (usual / seen - 1.0):+.1f} % off that of the run)"
-        change = ""
-        if field == "minimum_film":
-            factor, thinner = film_factors(value, allowed)
-            if thinner > NEVER / WIDEST:
-                change = f"{bearing.kind} bearing in {place}: {oil_told(bearing, thinner)}"
-        else:
-            factor = pressure_factor(value, allowed)
-        power = power_of_load(partial(of_load, value), factor, WIDEST)
-        drawn = of_extreme(table[name], extreme, factor, power)
         models = "thrust.film", field.replace("_", " ")
-        yield Margin(
-            factor, place, case, told, change, drawn, time=time, models=models, power=power
-        )
+        about = Margin(math.nan, place, case, told, time=time, models=models)
+        whose = f"{bearing.kind} bearing in {place}"
+        yield film_margin(about, value, bearing, whose, allowed, table[name], extreme)
 
 
 def clearance_used(film: Number, bearing: AnyAxial) -> Number:

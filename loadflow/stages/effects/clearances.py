@@ -19,7 +19,7 @@ from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
-from loadflow.stages.frames import from_film, to_film
+from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import always_turns
 
@@ -58,15 +58,7 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
     places = {name: place_of(at, name, (-1.0) ** k) for k, name in enumerate(names)}
     first, last = names[0], names[-1]
     moved = places[last].position - places[first].position
-    along = where[last] - where[first]
-    # what moves along y turns about z, what moves along z about −y
-    turned = np.stack([0.0 * moved[..., 0], -moved[..., 2], moved[..., 1]], axis=-1)
-    return turned / along, places
-
-
-def _moved(slope: Floats) -> Floats:
-    """How far a shaft moves along y and z with each metre of its length, by its slope (…, 3)."""
-    return np.stack([0.0 * slope[..., 0], slope[..., 2], -slope[..., 1]], axis=-1)
+    return slope_of(moved / (where[last] - where[first])), places
 
 
 def place_of(at: Situation, name: str, sign: float) -> Place:
@@ -121,7 +113,7 @@ def _ends(at: Situation) -> dict[str, _Ends]:
             if not carried[0].any():
                 continue
             bore = tilted[0, carried[0]].mean(axis=0) if mean else from_film(own.alignment)
-            away = 0.5 * own.geometry.width * _moved(tilted - bore)
+            away = 0.5 * own.geometry.width * moved_by(tilted - bore)
             ends = [np.linalg.norm(lies + side, axis=-1) for side in (away, -away)]
             share = (np.maximum(*ends) - np.linalg.norm(lies, axis=-1)) / film
             found[name] = _Ends(share[carried], film[carried])

@@ -46,7 +46,9 @@ def place_on_seat(at: Situation, name: str) -> Place:
 
 
 def _concept(at: Situation, name: str) -> Concept:
-    return next(one for one in at.scene.shaft.concepts if name in one.bearings)
+    concept = at.scene.shaft.concept_at(name)
+    assert concept is not None
+    return concept
 
 
 def _films(at: Situation) -> Sizes:
