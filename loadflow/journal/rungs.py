@@ -42,7 +42,8 @@ _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grad
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
 _REDUCED = frozenset(
     _LINE
-    | {"shape", "crown", "local_shell", "contact", "heat", "film_heat", "turbulence", "supply"}
+    | _SHELLS
+    | {"shape", "crown", "contact", "heat", "film_heat", "turbulence", "supply"}
 )
 
 
