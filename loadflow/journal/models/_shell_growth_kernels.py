@@ -82,7 +82,8 @@ def follow_by(film, work, size):
         _open_all_over(film, work, column)
         for here in range(column * block, (1 + column) * block, LANES):
             own = take(work.columns, here) * take(work.state[DLOAD], here - column * block)
-            put(work.columns, here, own * film.give + take(work.modes.change, here - column * block))
+            more = take(work.modes.change, here - column * block)
+            put(work.columns, here, own * film.give + more)
 
 
 @beside(lambda film, work: 0.0)

@@ -42,7 +42,7 @@ class ModesWork(NamedTuple):
     amplitude, other : array (k,)
         Amplitudes at the unknowns, and of a change of these.
     growth, change : array (nx, L)
-        Growth of the gap at the unknowns, clearances; by a change of these, or that of the pressure.
+        Growth of the gap at the unknowns, clearances; that by a change of them, or a pressure, Pa.
     column : array (1, nx, L)
         Change of the residual by a growth.
     row : array (L,)

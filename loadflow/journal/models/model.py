@@ -195,7 +195,7 @@ def _pairs(
     if film.rung == "reduced" and film.shell is not None and not film.shell.local:
         words = 'None on rung = "reduced" in a shell that gives way all over; "grid" has both'
         yield "contact", film.contact, True, words
-        cells = "one that is known on every grid, in a shaped bore on rung = \"reduced\""
+        cells = 'one that is known on every grid, in a shaped bore on rung = "reduced"'
         apart = bool(bearing.shape.segments) and not film.shell.any_grid
         yield "shell", film.shell, apart, cells
     over_area = film.heat is not None and film.heat.over_area
