@@ -38,6 +38,7 @@ from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
+from loadflow.journal.models._shell_step_kernels import NEAR, follow_shell
 from loadflow.journal.models._small_systems import fill_upper, solve_system
 from loadflow.journal.models._step_kernels import leaves_room
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
@@ -46,7 +47,6 @@ from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
 from loadflow.numerics.references import refer
 
 Array = NDArray[np.float64]
-
 
 COORDINATES = 4
 SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films; then those of seats
@@ -225,6 +225,7 @@ def _solve(one, other, shared, speed, rate, fresh):
             work.kept[0], work.kept[1], columns = 1.0, side.thin[0] * rate, 1 + size
             columns = answers_of_grooves(film, work, columns)
         substitute(work.matrix, work.columns, columns)
+        follow_shell(film, work, wedge, side.thin[0] * rate, columns, NEAR)
         follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
         carry(film, work, size)
         for c in range(SHAFT):
