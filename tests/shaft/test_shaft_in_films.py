@@ -154,9 +154,17 @@ def test_a_shaft_on_rigid_bearings_has_no_tilt_in_clearances():
     assert "clearance_tilt" not in at_place(scene, found, "N")
 
 
-def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):
+LEMON = {"kind": "lobes", "count": 2, "preload": 0.5}
+
+
+@pytest.mark.parametrize("shape", ["cylindrical", "lemon"])
+def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved, shape):
     """Under the loads that the shaft stage tells, around the shaft as it tells it."""
     scene, loads, found = moved
+    if shape == "lemon":
+        bore = {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3, "shape": LEMON}
+        scene = scene_of(geometry=bore)
+        found = shaft.bearing_loads(scene, None, {"loads": loads})
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
     time, speed = loads["time"].values, loads["speed"].values
     for k, name in enumerate(("N", "N2")):
@@ -216,9 +224,10 @@ def test_films_of_the_run_are_those_that_tilt_the_shaft(moved):
         assert np.allclose(told[name]["tilt"].values, both.tilt[:, k])
 
 
-def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches():
+@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, LEMON])
+def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches(shape):
     """A slope beyond the clearance: surfaces touch at an end, the gap stays open."""
-    wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3}
+    wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3, "shape": shape}
     scene = scene_of(geometry=wide, lubricant={"viscosity": 0.03})
     loads = loads_of(swing=2.5)
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path

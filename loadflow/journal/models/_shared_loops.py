@@ -74,6 +74,8 @@ class Side(NamedTuple):
     stop : array (2,)
         Gap at a bearing end, clearances, below which surfaces touch, and the load there, N, at
         which it would close; no load: they do not.
+    arcs : array (s, 5)
+        Arcs of the bore that they touch, as `Bore.arcs`.
     place, new : array (4,)
         At the last time, and at the next.
     past : array (8,)
@@ -96,6 +98,7 @@ class Side(NamedTuple):
     given: Array
     bend: Array
     stop: Array
+    arcs: Array
     place: Array
     new: Array
     past: Array
@@ -166,14 +169,23 @@ def _stop(side):
     load, stiffness = work.touch[0], work.touch[1:]
     points = film.nodes.z.size
     for end in range(points - film.nodes.ends.size, points):
-        z, ex, ey = film.nodes.z[end], work.centre[0, end], work.centre[1, end]
-        ratio = np.hypot(ex, ey)
-        overlap = gap - (1.0 + film.places.depth[end] - ratio)
-        if not overlap > 0.0:
-            continue
-        force = side.stop[1] * (overlap / gap) ** 2
-        along, aside = 2.0 * side.stop[1] * overlap / (gap * gap), force / ratio
-        push(load, stiffness, z, ex / ratio, ey / ratio, force, along, aside)
+        z = film.nodes.z[end]
+        for k in range(side.arcs.shape[0]):
+            wide, x, y, middle, half = side.arcs[k]
+            ex, ey = work.centre[0, end] + x, work.centre[1, end] + y
+            toward = np.arctan2(ey, ex)
+            beside = (toward - middle + np.pi) % (2.0 * np.pi) - np.pi
+            beyond = abs(beside) > half  # nearest to an edge of the arc
+            if beyond:
+                toward = middle + np.copysign(half, beside)
+            c, s = np.cos(toward), np.sin(toward)
+            reach = ex * c + ey * s
+            overlap = gap - (wide + film.places.depth[end] - reach)
+            if not overlap > 0.0:
+                continue
+            force = side.stop[1] * (overlap / gap) ** 2
+            along = 2.0 * side.stop[1] * overlap / (gap * gap)
+            push(load, stiffness, z, c, s, force, along, 0.0 if beyond else force / reach)
     fill_upper(stiffness)
 
 
@@ -305,6 +317,12 @@ def _advance(one, other, shared):
         share *= 0.5
 
 
+@inner
+def _is_open(side):
+    """Whether a shaped bore does not close between two places of the cells."""
+    return not side.film.ring.shaped or has_gap(side.film, side.work)
+
+
 @once
 def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
     """Films and shaft that carry the load between two times; residual, steps, whether it is small.
@@ -332,7 +350,7 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
         hold(shared, SHAFT, n, to)
         residual = _residual(one, other, shared, speed, rate, scale)
         if residual < tolerance:
-            return residual, spent, True
+            return residual, spent, _is_open(one) and _is_open(other)
         if spent == max_iterations or not residual < np.inf:
             return residual, spent, False
         kept = one.work.kept[0] > 0.0 and other.work.kept[0] > 0.0

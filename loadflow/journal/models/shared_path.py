@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -409,7 +410,7 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     felt[[2, 3], [own, own + 1]] = 1.0
     film, contact = model.film, model.options.contact
     load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
-    if film.rough.size > 0.0 or film.give > 0.0 or film.ring.shaped:
+    if film.rough.size > 0.0 or film.give > 0.0:
         load = 0.0
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
@@ -417,6 +418,7 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
         film=film, work=model.work, lies=lies, slipped=np.zeros(4), felt=felt, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
+        arcs=Bore.of(model.bearing).arcs(),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
         thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
     )  # fmt: skip
@@ -427,7 +429,8 @@ def _give(bearing: JournalGeometry, stiffness: float, slip: Array) -> float:
     most = float(slip.max())
     if np.isfinite(stiffness) or np.isinf(most):
         return 1.0 / stiffness
-    return _STICKS * 2.0 * bearing.clearance / bearing.width / most
+    # one that has no load at all holds nothing
+    return _STICKS * 2.0 * bearing.clearance / bearing.width / max(most, 1.0)
 
 
 def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:
