@@ -19,7 +19,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     has_gap,
     narrowest,
     place,
-    push,
     share_of_step,
     touch,
     turn,
@@ -38,8 +37,9 @@ from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
-from loadflow.journal.models._small_systems import fill_upper, solve_system
+from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
+from loadflow.journal.models._stop_kernels import stop
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models.composed_film import Composed, ComposedWork
 from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
@@ -163,33 +163,6 @@ def _move(side, step, share):
 
 
 @once
-def _stop(side):
-    """Add what holds the shaft where it touches a bearing end to `touch` of smooth surfaces."""
-    film, work, gap = side.film, side.work, side.stop[0]
-    load, stiffness = work.touch[0], work.touch[1:]
-    points = film.nodes.z.size
-    for end in range(points - film.nodes.ends.size, points):
-        z = film.nodes.z[end]
-        for k in range(side.arcs.shape[0]):
-            wide, x, y, middle, half = side.arcs[k]
-            ex, ey = work.centre[0, end] + x, work.centre[1, end] + y
-            toward = np.arctan2(ey, ex)
-            beside = (toward - middle + np.pi) % (2.0 * np.pi) - np.pi
-            beyond = abs(beside) > half  # nearest to an edge of the arc
-            if beyond:
-                toward = middle + np.copysign(half, beside)
-            c, s = np.cos(toward), np.sin(toward)
-            reach = ex * c + ey * s
-            overlap = gap - (wide + film.places.depth[end] - reach)
-            if not overlap > 0.0:
-                continue
-            force = side.stop[1] * (overlap / gap) ** 2
-            along = 2.0 * side.stop[1] * overlap / (gap * gap)
-            push(load, stiffness, z, c, s, force, along, 0.0 if beyond else force / reach)
-    fill_upper(stiffness)
-
-
-@once
 def _residual(one, other, shared, speed, rate, scale):
     """Largest residual of both films and of what is missing, which is taken off `missing`."""
     residual = 0.0
@@ -202,7 +175,7 @@ def _residual(one, other, shared, speed, rate, scale):
         residual = max(residual, unfed(film, work))
         touch(film, work, side.new)
         if side.stop[1] > 0.0:
-            _stop(side)
+            stop(side)
         if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
             return np.inf
         if film.give > 0.0 and not has_gap(film, work):
