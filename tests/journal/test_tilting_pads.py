@@ -8,7 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
+from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
+from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Film,
     GasMixture,
@@ -161,3 +162,23 @@ def test_ordinary_wind_loads_on_a_pad_have_answers(law: MassConserving | GasMixt
         found = bearing.equilibrium(force, speed, film, strict=False)
     assert found.converged.all()
     assert (found.minimum_film > 0).all()
+
+
+@pytest.mark.filterwarnings("ignore:the cells do not resolve")
+def test_a_load_at_which_a_film_takes_hold_of_a_pad_is_refused_by_its_name() -> None:
+    """Beside each other the pads carry too little and too much: no place between has the load."""
+    point = draw_point(np.random.default_rng([SEEDS["pads"], 1233]))
+    FAMILIES["pads"](point)
+    with pytest.raises(SolverError, match=r"a film holds the pad at -78.4° there or just beside"):
+        point.solve()
+    options = {name: value for name, value in point.film.items() if name != "tilt"}
+    line = Line.of((), tilt=point.film["tilt"])
+    own = Statics(point.bearing, Film(point.oil, **options), line, abs(point.speed))
+    last = own.solve(0, point.force, point.speed, None, LIMITS)
+    assert last.lost.size == 1
+    missing = []
+    for angle in np.arange(8) * np.pi / 4:
+        beside = last.position[:2] + 2e-3 * np.array([np.cos(angle), np.sin(angle)])
+        held = point.bearing.pressure(beside * point.gap, point.speed, point.oil, **point.film)
+        missing.append((point.force - held.force) / point.load)
+    assert (missing @ np.transpose(missing)).min() < -0.1  # the other way from one to another

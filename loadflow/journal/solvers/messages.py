@@ -16,6 +16,7 @@ from loadflow.numerics.convergence import unresolved
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.gap_shaped import ShapedGap
 
 Array = NDArray[np.float64]
 
@@ -111,6 +112,12 @@ def _unsolved(
         return f"the shaft touches the elastic shell, {place}"
     reached = unresolved(solution.residual, solution.rounding, solution.iterations)
     found = f"{what}; {reached}, at ε = {math.hypot(*position[:2]):.6g}"
+    if solution.lost.size:
+        x, y = cast("ShapedGap", gap).pivots[solution.lost[0] - gap.shaft]
+        return (
+            f"{found}: a film holds the pad at {math.degrees(math.atan2(y, x)):.4g}° there or just "
+            f"beside it alone, so that the pads carry at once too little and too much, {place}"
+        )
     if film.contact is not None:
         overlap = -gap.closest(position)[0] / gap.roughness
         return f"{found}, mean planes {overlap:.3g} σ beyond touching"

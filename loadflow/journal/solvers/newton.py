@@ -42,7 +42,7 @@ class Solution:
 
     `rounding` is the residual that rounding allows, where that was asked; `estimate` the position
     by the closed form, which tells whether the next load is near; `free` are the degrees of freedom
-    in balance.
+    in balance; `lost` the pads with whose film the load jumps there from too little to too much.
     """
 
     u: Array
@@ -54,6 +54,7 @@ class Solution:
     estimate: Array | None = None
     free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
     rounding: float = 0.0
+    lost: NDArray[np.int64] = field(default_factory=lambda: np.arange(0))
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,7 @@ from loadflow.journal.solvers.newton import (
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
+_Place = tuple[Solution, Rows]  # film at a position of the shaft, and the pads that it holds
 
 _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
@@ -41,6 +42,7 @@ _LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
 _ASIDE = 1e-3  # stiffness that a shaft has sideways on a single pad, loads over clearance
 _BACK_ON = 0.97  # share of the gap at which a pad has come off, below which it is tried again
 _NEAR = 1e-3  # share of the load that may be missing for Newton's method to take over
+_BESIDE = 1e-3  # way, in clearances, to a place that is just beside
 
 
 def balance_pads(
@@ -220,6 +222,13 @@ def solve_with_pads(
         Degrees of freedom of the shaft that move.
     tolerance, max_iterations
         Of each film.
+
+    Returns
+    -------
+    Solution
+        Not converged, its `lost` are pads that a film holds at its position alone, or just beside
+        it alone, so that one place carries too little and the other too much: a film holds a pad
+        only where it carries some least force.
     """
     reach = np.full(gap.pads.size, np.inf)  # gap over its pivot below which a pad is tried
 
@@ -238,6 +247,7 @@ def solve_with_pads(
     drop(pads, state.position)
     spent, scale = state.iterations, film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
+    across: tuple[_Place, _Place] | None = None
     for _ in range(_SHAFTS):
         touching = not gap.narrowest(state.position) > _TOUCHING
         if not state.converged or touching or spent > _BUDGET * max_iterations:
@@ -257,6 +267,8 @@ def solve_with_pads(
             trial, some = balanced(replace(state, position=state.position + step))
             spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
+            if trial.converged and missing @ left < 0.0 and not np.array_equal(pads, some):
+                across = (state, pads), (trial, some)
             allowed = 1.0 if steady else 2.0
             if trial.converged and math.hypot(*left) < allowed * math.hypot(*missing):
                 break
@@ -267,7 +279,44 @@ def solve_with_pads(
         drop(pads, state.position)
     free = np.append(shaft, pads)
     found = math.hypot(*missing) / scale if state.converged else math.inf
-    return replace(state, converged=False, iterations=spent, residual=found, free=free)
+    ended = replace(state, converged=False, iterations=spent, residual=found, free=free)
+    if across is None:
+        return ended
+    return _with_lost(film, gap, ended, across, force[shaft], tolerance, max_iterations)
+
+
+def _with_lost(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    ended: Solution,
+    across: tuple[_Place, _Place],
+    force: Array,
+    tolerance: float,
+    max_iterations: int,
+) -> Solution:
+    """What has `ended`, with its `lost` pads if there are two places beside each other that a
+    film holds them at and does not, and the load `force` of the shaft lies between those of both.
+
+    Sought by halves between the two places `across`.
+    """
+    (near, held), (far, others) = across
+    every = np.union1d(held, others)
+    while True:
+        way, spent = far.position - near.position, ended.iterations
+        short = [force - each.linear.load[: force.size] for each in (near, far)]
+        if not short[0] @ short[1] < 0.0:
+            return ended
+        if math.hypot(*way[: gap.shaft]) < _BESIDE:
+            return replace(ended, u=near.u, position=near.position, lost=np.setxor1d(held, others))
+        middle = replace(near, position=near.position + 0.5 * way)
+        state, pads = _balanced(film, gap, middle, every, tolerance, max_iterations)
+        ended = replace(ended, iterations=spent + state.iterations)
+        if not state.converged:
+            return ended
+        if np.array_equal(pads, held):
+            near = state
+        else:
+            far, others = state, pads
 
 
 def _condensed(state: Solution, shaft: Rows, pads: Rows) -> Array:

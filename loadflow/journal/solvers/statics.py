@@ -427,10 +427,13 @@ class Statics:
             return solve_elastic_in_steps(film, force, estimate, limits[0], free)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
-            solution = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
-            if solution.converged:
-                return solution
+            on_pads = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
+            if on_pads.converged:
+                return on_pads
             self._on_pads(pads)
+            held = solve_from_held(film, force, estimate, *limits, free)
+            told = held.converged or has_touched(film, held) or not on_pads.lost.size
+            return held if told else on_pads
         if self.gap.pads.size or not self._has_path:
             return solve_from_held(film, force, estimate, *limits, free)
         return solve_from_held(film, force, estimate, *limits, free, _LONG)  # the path goes on
