@@ -61,7 +61,7 @@ CALLS = {
     "statistics": {"hub": ["HUB"], "bearings": ["HUB", "--bearings"]},
     "reduce": {
         "histogram": ["ONE", "-o", "OUT/x", "--pick=random", "--bearing=N", *FEW],
-        "stationary": ["HUB", "-o", "OUT/x", "--method=stationary"],
+        "stationary": ["ONE", "-o", "OUT/x", "--method=stationary"],
         "periodic": ["ONE", "-o", "OUT/x", "--method=periodic", "--bounds", "0.05", "0.3",
                      "--bearing=N"],
         "of bearings": ["FORCE", "-o", "OUT/x", "--bearing=N", *FEW],

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 
 import numpy as np
+from numba import types
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
@@ -168,7 +169,7 @@ def compile_response() -> None:
     kernels.respond.compile(response_kinds(m, controller(plant), 0.025))
 
 
-def response_kinds(m: Machine, c: Controller, dt: float) -> tuple[object, ...]:
+def response_kinds(m: Machine, c: Controller, dt: float) -> tuple[types.Type, ...]:
     """Types of what the loop hands to its second half, see `_kernels.respond`."""
     s = _state(m, 10.0, 0.0)
     step, time, since, controlled, speed, turned = 0, 0.0, dt, True, s.speed, s.azimuth
