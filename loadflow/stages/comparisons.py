@@ -246,13 +246,13 @@ def _orbits(
         taken, finer = scene.journal.every(step), better.every(step)
         runs, where = _running_ratio(case, film), f"{case.name}, {bearing}"
         if scene.shaft.coupled:
-            # all films are one system: where one touches, none goes on as on other cells
+            # all films are one system: where smooth ones touch, none goes on as on other cells
             films = [parts["journal"][name]["in_contact"].values > 0 for name in options]
             touches = np.any(films, axis=0) & np.asarray(counted(film))
             # ends that are too near fail, and cells say how far
             near = film["minimum_film"].values < better.least_film
             runs = np.where(maximum_filter1d(near, 2 * STEPS), np.nan, runs)
-            if touches.any() or np.isnan(runs).all():
+            if (touches.any() and better.contact is None) or np.isnan(runs).all():
                 yield _not_solved(stage, where, touches.mean(), better)
                 continue
         worst = int(np.nanargmax(runs))

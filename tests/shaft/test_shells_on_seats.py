@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.journal.models import shared_path
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.shaft_place import move_together
@@ -50,6 +51,11 @@ def scene_of(seat: dict | None, **more) -> Scene:
         }
         | more
     )
+
+
+def test_a_seat_that_has_no_load_at_all_gives_way_by_a_finite_moment():
+    bearing = scene_of(spherical(0.1)).journal.at("N").geometry
+    assert 0.0 < shared_path._give(bearing, np.inf, np.zeros(3)) < np.inf
 
 
 @pytest.fixture(scope="module")

@@ -282,9 +282,8 @@ class _March:
         still = shared._replace(load=first(shared.load), slip=first(shared.slip))
         step = self.time[1] - self.time[0] if self.time.size > 1 else 1.0
         time, speed = step * (2.0 ** np.arange(_RESTED) - 1.0), first(self.speed)
-        done = follow(
-            *sides, still, 1, time, speed, self.control.tolerance, self.control.max_iterations
-        )
+        limits = self.control.tolerance, self.control.max_iterations
+        done = follow(sides[0], sides[1], still, 1, time, speed, *limits)
         if done < _RESTED:
             k = int(np.argmin([side.rows[done - 1, at.LEAST] for side in sides]))
             given = self.lying.force[0, k], self.speed[0], float(np.hypot(*sides[k].place[:2]))
