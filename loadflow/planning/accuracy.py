@@ -112,7 +112,8 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
 
     No accuracy is asked of these. Of rolling bearings the ladder holds what few samples in ideal
     rolling are off; shares of a load, and the tilt of the shaft, follow the load as it is, and κ
-    the slowest speed: its oil is as warm as the scene states. Effects that are left out count where
+    the slowest speed; both κ and the modified life follow the oil, by the temperature that a scene
+    without cooling assumes. Effects that are left out count where
     they move the load, or the side flow itself.
 
     Parameters
@@ -152,6 +153,13 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
         } | {"row share": whole}
         speed = of("rolling.friction", "slowest speed", *_SPEED)
         reached["viscosity ratio"] = None if speed is None else SLOW_POWER * speed
+        kappa, aged = (
+            sum(known.size(effect, name) for effect in _left_out(scene, "rolling"))
+            for name in ("viscosity ratio", "modified life")
+        )
+        reached["viscosity ratio"] = _plus(reached["viscosity ratio"], kappa)
+        life = giving("rolling.life").results["rolling.life"](scene)["life"]
+        found["rolling.life"] = {"modified life": _plus(of("rolling.life", "life", *life), aged)}
         found["rolling.friction"] = {
             name: _plus(share, few.get(name)) for name, share in reached.items()
         }

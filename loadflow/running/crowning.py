@@ -112,6 +112,6 @@ def _scene(scene: Scene, name: str, candidate: Candidate, found: tuple[PlaceCrow
         }  # fmt: skip
         geometry["relief"] = [*kept, *([told] if told else [])]
         places[one.place]["rung"] = "grid"
-    friction = scene.friction.model_dump(mode="json", exclude_unset=True)
+    friction = scene.friction.model_dump(mode="json", exclude_unset=True, exclude_none=True)
     words = "; ".join(", ".join(part for part in one.row[:4] if part) for one in found)
     return scene_with_bearings(scene, f"{scene.name}-{name}-crowned", places, friction, words)

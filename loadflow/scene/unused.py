@@ -378,8 +378,9 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "thrust.tilt", "pads that are self_aligning follow the collar"
     bends = any(map(scene.shaft.bends_at, scene.thrust.collars))
     if not scene.thrust.tilt and not (scene.asks and bends):
-        for place, one in scene.thrust.collars.items():
-            if not one.self_aligning or one.seat is not None:  # plans count what a seat leaves
+        for place, collar in scene.thrust.collars.items():
+            # plans count what a seat leaves
+            if not collar.self_aligning or collar.seat is not None:
                 continue
             where = f"thrust.bearings.{place}.self_aligning"
             yield where, "only films with tilt know it; set thrust.tilt, with a beam as the shaft"

@@ -267,10 +267,11 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         per_hour = damage_per_hour(table, kind).transpose("case", "bearing").values
         life = _years(per_hour, share, slope, np.arange(share.size))
         low, high = interval(groups, partial(_years, per_hour, share, slope))
-        limit = design / HOURS_PER_YEAR
+        limit, model = design / HOURS_PER_YEAR, f"{kind}life".replace("_", " ")
         worst = int(np.argmax((per_hour * share[:, None]).sum(0)))
         yield key, Number(
-            life, "years", low, high, error_of(run, "rolling.life", "life"), limit, life >= limit,
+            life, "years", low, high, error_of(run, "rolling.life", model),
+            limit, life >= limit,
             place=str(table["bearing"].values[worst]),
             note="as a system" if table.sizes["bearing"] > 1 else "",
         )  # fmt: skip

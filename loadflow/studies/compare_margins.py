@@ -48,7 +48,8 @@ Tables = Mapping[str, xr.Dataset]
 
 
 _TOLD = 2  # changes that are told
-_LIFE = "rolling.life", "life"  # result and quantity whose error a margin of lives has
+# results and quantities whose error margins of lives have
+_LIFE, _MODIFIED = ("rolling.life", "life"), ("rolling.life", "modified life")
 _WARMER = 60.0  # K: how much warmer the oil is asked to be at most
 
 
@@ -229,7 +230,7 @@ def _rolling_margins(
     case, most = _most_damage(damage, share)
     yield Margin(
         factor, place, case, f"modified life of {place}{most}", change,
-        of_life(damage, share, factor, power), models=_LIFE, power=-power,
+        of_life(damage, share, factor, power), models=_MODIFIED, power=-power,
     )  # fmt: skip
 
 

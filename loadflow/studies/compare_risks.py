@@ -132,8 +132,9 @@ def rolling_risks(
             float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
             case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
             place=place,
-            note="κ of what turns; its error is that of the speed, with oil as warm as "
-            f"{_oil(scene, place)}; ISO 281 ends at 0.1, full films begin at 1",
+            note="κ of what turns; its error is that of the speed, and of a temperature that is "
+            f"assumed; oil as warm as {_oil(scene, place)}; ISO 281 ends at 0.1, full films begin "
+            "at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
 

@@ -137,7 +137,7 @@ class Space:
 
         A dynamic capacity that a bearing states follows its geometry as that of ISO 281 does.
         """
-        places, friction = copy.deepcopy(dict(self.places)), dict(self.friction)
+        places, friction = copy.deepcopy((dict(self.places), dict(self.friction)))
         for key, value in self.settings(point).items():
             for table, path in _targets(key, places, friction):
                 _set(table, path, value)
@@ -186,7 +186,7 @@ def space_of(scene: Scene, candidate: Candidate, design: Design) -> Space:
         A key that no bearing of it has, or a value that it cannot take.
     """
     places = written_places(candidate)
-    friction = scene.friction.model_dump(mode="json", exclude_unset=True)
+    friction = scene.friction.model_dump(mode="json", exclude_unset=True, exclude_none=True)
     keys = design.keys or default_keys(places)
     axes = tuple(_axis(key, variation, places, friction) for key, variation in keys.items())
     space = Space(axes, places, friction, candidate.title, candidate.source)

@@ -167,7 +167,9 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     spherical = by_name(found)["two-spherical"].numbers
     for key in ("friction", "energy", "friction_torque", "skf_torque", "film_parameter", "tilt",
                 "minimum_load", "row_share", "row_overload", "viscosity_ratio"):  # fmt: skip
-        assert 0 <= spherical[key].error < 0.5, key
+        # κ follows the viscosity at a temperature that is assumed where no cooling is stated
+        most = 1.0 if key == "viscosity_ratio" else 0.5
+        assert 0 <= spherical[key].error < most, key
     for key in ("friction_torque", "palmgren_torque", "skf_torque"):
         assert spherical[key].tolerance_low < spherical[key].value < spherical[key].tolerance_high
     journal = by_name(found)["journal-cylindrical"].numbers

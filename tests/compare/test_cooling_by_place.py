@@ -1,14 +1,20 @@
 """Each rolling bearing has its own cooling, in runs, comparisons and designs."""
 
+import numpy as np
 import pytest
 from synthetic import cube_file
 
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
+from loadflow.planning.accuracy import errors_beside
+from loadflow.planning.effects import Estimates, switched
 from loadflow.running.comparison import compare
+from loadflow.scene.cases import list_cases
 from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.unused import unused_keys
+from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
+from loadflow.stages.effects.situation import situation
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
 
@@ -60,6 +66,39 @@ def test_the_band_by_the_temperature_of_the_oil_is_around_that_of_each_bearing(c
     oil = lubrication(scene.friction).oil
     thinner = float(oil.kinematic_viscosity(warm + 5.0) / oil.kinematic_viscosity(warm))
     assert kappa.tolerance_low / kappa.value == pytest.approx(thinner, rel=1e-3)
+
+
+def test_what_a_stated_temperature_would_be_off_is_indicated(cooled):
+    """κ and modified life of the run, and with the oil at the temperature that is assumed."""
+    _, scene, table, *_ = cooled
+    assert ROLLING_HEAT.is_on(scene)
+    without = switched(scene, ROLLING_HEAT, False)
+    assert without.friction.balances(["N", "N2"]) == []
+    assert ROLLING_HEAT.switched(without, True) is None  # nobody knows its cooling
+    sizes = ROLLING_HEAT.indicator(situation(scene, list_cases(scene)))
+    oil, assumed = lubrication(scene.friction).oil, scene.friction.temperature
+    off = oil.kinematic_viscosity(assumed) / oil.kinematic_viscosity(table["bearing_temperature"])
+    off = float(np.abs(off - 1.0).max())
+    assert off > 0.1
+    assert off / 3.0 < sizes["viscosity ratio"] < ROLLING_HEAT.smaller * off
+
+
+def test_an_assumed_temperature_is_in_the_error_of_viscosity_ratio_and_modified_life(cooled):
+    _, scene, *_ = cooled
+    indicated = Estimates({ROLLING_HEAT.name: {"viscosity ratio": 0.4, "modified life": 0.7}})
+    without = switched(scene, ROLLING_HEAT, False)
+    stated = without.model_copy(
+        update={"friction": without.friction.model_copy(update={"temperature": 320.0})}
+    )
+    kappa, life = (
+        [errors_beside(one, indicated)[result][name] for one in (scene, without, stated)]
+        for result, name in (
+            ("rolling.friction", "viscosity ratio"), ("rolling.life", "modified life")
+        )
+    )  # fmt: skip
+    assert kappa[1] - kappa[0] == pytest.approx(0.4)
+    assert life[1] - life[0] == pytest.approx(0.7)
+    assert (kappa[2], life[2]) == (kappa[0], life[0])  # somebody knows it
 
 
 def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():

@@ -27,7 +27,7 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.rolling_at_work import at_work
 from loadflow.studies.design_point import DesignPoint, judge_design
-from loadflow.studies.design_result import best_of, front_of
+from loadflow.studies.design_result import best_of, front_of, scene_with_bearings
 from loadflow.studies.design_space import space_of, start_of
 from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.load_spectrum import load_spectrum
@@ -212,6 +212,18 @@ def test_a_design_is_as_warm_as_its_mean_friction_and_cooling_make_it(cube, seri
     # heavier loads make its oil warmer
     if stated.load_factor > 1:
         assert found.load_factor <= stated.load_factor
+
+
+def test_a_cooling_varies_from_what_the_scene_states_and_is_written_with_the_design(cube):
+    cooling = {"N": {"conductance": 12.0}, "N2": {"area": 4.0, "transfer": 20.0}}
+    keys = {"keys": {"friction.cooling.N.conductance": [10.0, 30.0]}}
+    stated = scene_of(cube, candidate="two-spherical", **keys)
+    scene = stated.model_copy(update={"friction": Friction(cooling=cooling)})
+    space = space_of(scene, scene.candidates["two-spherical"], scene.design)
+    assert start_of(space) == [12.0]
+    text = scene_with_bearings(scene, "best", *space.data([20.0]), "words")
+    written = make_scene(tomllib.loads(text)).friction
+    assert [written.conductance_at(place) for place in ("N", "N2")] == [20.0, 80.0]
 
 
 def test_the_search_finds_what_a_fine_scan_finds(cube, series, found):

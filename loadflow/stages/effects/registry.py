@@ -9,6 +9,7 @@ from loadflow.stages.effects import (
     film_heat,
     roller_profile,
     rolling,
+    rolling_heat,
     rotor,
     seats,
     shaft,
@@ -43,6 +44,7 @@ EFFECTS: list[Effect] = [
     rolling.RINGS,
     roller_profile.SLICED,
     rolling.CENTRIFUGAL,
+    rolling_heat.ROLLING_HEAT,
 ]
 
 

@@ -1,0 +1,170 @@
+"""Effect of the heat of rolling bearings: how far the oil is from the temperature assumed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from loadflow.rolling import Lubrication, modified_spectrum_life
+from loadflow.rolling.friction.catalogue import (
+    FRICTION_COEFFICIENTS,
+    PALMGREN_F0,
+    PALMGREN_F1,
+    palmgren_idle_torque,
+    palmgren_load_torque,
+)
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.friction import Friction
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
+from loadflow.stages.effects.rolling import SECTION_SIDE
+from loadflow.stages.effects.situation import BearingLoad, Floats, Situation
+from loadflow.stages.stage import with_settings
+from loadflow.tribology import lubricant
+
+TRANSFER = 15.0
+"""Of a housing in still air, W/(m² K), where no cooling is stated; assumed."""
+
+HOUSING = 1.5
+"""Diameter and width of a housing over those of its bearing, where no cooling is stated."""
+
+HOTTEST = 150.0  # K above the air, to which the balance is sought
+_HALVINGS = 30
+FILM_POWER = 0.7
+"""Of the viscosity, that films of lines follow [Dowson and Higginson 1966]."""
+
+
+def _heat(at: Situation) -> Sizes:
+    """What the temperature that is assumed is off of κ, modified life, Λ and friction.
+
+    Against that at which Palmgren's friction under the mean load leaves by the cooling stated, or
+    else by the surface of a housing that is assumed. Nothing where the shaft stands.
+    """
+    found: list[Sizes] = []
+    for name, part in at.scene.rolling.bearings.items():
+        if _balances(part) and at.turns.any():
+            found.append(_of_bearing(at.scene.friction, part, at.bearings[name], at.speed))
+    names = {name for one in found for name in one}
+    return {name: max(one.get(name, 0.0) for one in found) for name in sorted(names)}
+
+
+def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, speed: Floats) -> Sizes:
+    """Sizes of one bearing; those of the point where each is largest."""
+    bearing: Any = part.geometry
+    oil, turns = lubricant(options.lubricant), np.abs(speed) > 0
+    own = _Friction(bearing, load, speed, turns)
+    conductance = options.conductance_at(part.bearing) or _assumed(bearing)
+    air, stated = options.ambient_temperature, options.temperature_at(part.bearing)
+    low, high = np.full(own.speed.shape, air), np.full(own.speed.shape, air + HOTTEST)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        lost = own.torque(oil.kinematic_viscosity(middle)) * own.speed
+        warms = lost > conductance * (middle - air)
+        low, high = np.where(warms, middle, low), np.where(warms, high, middle)
+    hot, cool = 0.5 * (low + high), np.full(low.shape, stated)
+    warm, assumed = (np.asarray(oil.kinematic_viscosity(each), float) for each in (hot, cool))
+    ratio = assumed / warm
+    changes = {
+        "viscosity ratio": ratio,
+        "film parameter": ratio**FILM_POWER,
+        "friction power": own.torque(assumed) / own.torque(warm),
+        "modified life": own.lives(options, cool) / own.lives(options, hot),
+    }
+    return {name: float(np.abs(change - 1.0).max()) for name, change in changes.items()}
+
+
+class _Friction:
+    """Friction torque of a bearing after Palmgren at the points that turn."""
+
+    def __init__(self, bearing: Any, load: BearingLoad, speed: Floats, turns: Floats) -> None:
+        turn = np.hypot(load.moment[:, 1], load.moment[:, 2])
+        pushed = np.hypot(load.radial, load.force[:, 0]) + 2.0 * turn / bearing.pitch_diameter
+        self.load, self.speed = np.maximum(pushed[turns], 1.0), np.abs(speed[turns])
+        self._bearing, self._diameter = bearing, bearing.pitch_diameter
+
+    def torque(self, viscosity: Any) -> Floats:
+        """N m, with the kinematic viscosity (n,), m²/s."""
+        kind = self._bearing.catalogue_kind
+        factor = 0.5 * FRICTION_COEFFICIENTS.get(kind, FRICTION_COEFFICIENTS["deep groove"])
+        factor = PALMGREN_F1.get(kind, factor)
+        idle = PALMGREN_F0.get(kind, PALMGREN_F0["ball"])
+        held = palmgren_load_torque(self.load, self._diameter, factor)
+        return np.asarray(palmgren_idle_torque(self.speed, viscosity, self._diameter, idle) + held)
+
+    def lives(self, options: Friction, temperatures: Floats) -> Floats:
+        """Modified life at each point alone, with its oil at a temperature (n,), K."""
+        oil, one = lubricant(options.lubricant), np.ones(1)
+        found = []
+        for kelvin, load, speed in zip(temperatures.tolist(), self.load, self.speed):
+            grease = Lubrication(oil=oil, temperature=kelvin, cleanliness=options.cleanliness)
+            life = modified_spectrum_life(self._bearing, load * one, speed * one, grease, one)
+            found.append(float(life.life))
+        return np.array(found)
+
+
+def _assumed(bearing: Any) -> float:
+    """Conductance of a housing around a bearing, W/K: mantle and both faces."""
+    balls = bearing.element == "ball"
+    element = bearing.ball_diameter if balls else getattr(bearing, "roller_length", 0.1)
+    width = getattr(bearing, "row_spacing", 0.0) + SECTION_SIDE / 2 * element
+    across = HOUSING * bearing.pitch_diameter
+    area = np.pi * across * HOUSING * width + 0.5 * np.pi * across**2
+    return TRANSFER * float(area)
+
+
+def _balances(part: FurtherBearing) -> bool:
+    return part.geometry.friction_model is not None and part.oscillation is None
+
+
+def _places(scene: Scene) -> list[str]:
+    """Bearings whose temperature is neither balanced nor stated otherwise than by default."""
+    return [
+        place
+        for place, part in scene.rolling.bearings.items()
+        if _balances(part)
+        and place not in scene.friction.cooling
+        and scene.friction.conductance is None
+    ]
+
+
+def _switched(scene: Scene, on: bool) -> Scene | None:
+    """The scene with the heat balances that it states, or without any."""
+    if on:
+        return None if _places(scene) else scene
+    return with_settings(scene, "friction", {"conductance": None, "cooling": {}})
+
+
+HEAT_COSTS = {"rollers": 6.0, "balls": 30.0}
+"""Time of the equilibria between rigid rings with their heat balance over that without."""
+
+HEAT_COST_FLEXIBLE = 3.0
+"""The same between elastic rings, which take longer (docs/compare.md)."""
+
+
+def _cost(scene: Scene) -> float:
+    if scene.rolling.rung == "flexible":
+        return HEAT_COST_FLEXIBLE
+    kinds = {one.friction_model for one in scene.rolling.geometries.values()}
+    return max((HEAT_COSTS[kind] for kind in kinds if kind), default=1.0)
+
+
+ROLLING_HEAT = Effect(
+    "heat of rolling bearings",
+    model="rolling",
+    keys=("friction.conductance", "friction.cooling"),
+    is_on=lambda scene: not _places(scene),
+    switched=_switched,
+    indicator=_heat,
+    larger=lambda scene: UNKNOWN,  # nobody knows a housing that is not stated
+    smaller=15.0,
+    out="no friction.conductance or friction.cooling: the oil is as warm as friction.temperature",
+    needs="friction.conductance, or a table friction.cooling of each bearing",
+    concerns=lambda scene: (
+        (scene.wants("rolling") or "rolling.friction" in scene.results)
+        and any(map(_balances, scene.rolling.bearings.values()))
+        and "temperature" not in scene.friction.changed
+    ),
+    probe="friction",
+    cost=_cost,
+)
