@@ -152,7 +152,6 @@ def test_an_effect_is_in_or_out_as_it_is_switched(effect, cube):
 
 GROOVE = {"angle": 3.14, "length": 0.5, "pressure": 6e5}
 CIRCLE = {"grooves": [GROOVE | {"shape": "circle"}]}
-THICK = {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}
 
 
 @pytest.mark.parametrize(
@@ -164,9 +163,8 @@ THICK = {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}
             CIRCLE,
             "rectangular ones, each on one segment",
         ),
-        (film.SHELL, {"kind": "local", "compliance": 1e-13}, THICK, "a local shell"),
     ],
-    ids=["supply", "shell"],
+    ids=["supply"],
 )
 def test_a_rung_that_knows_a_part_of_an_effect_is_listed_with_that_part(
     effect, known, unknown, said

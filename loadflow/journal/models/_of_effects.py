@@ -2,7 +2,7 @@
 
 A film of smooth surfaces, of laminar flow and without a supply is a `SmoothFilm` by its type. What
 stands for asperities, turbulence and grooves in the loops of others took a quarter of the time of
-compiling them.
+compiling them; what stands for a shell that gives way all over, of a `ShelledFilm`, a third.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from typing import Any
 
 from numba.extending import overload
 
-from loadflow.journal.models.composed_film import SmoothFilm
+from loadflow.journal.models.composed_film import ShelledFilm, SmoothFilm
 from loadflow.numerics.linked import LINKED, contracted
 
 # a call takes a film with asperities 3 % of its time
@@ -26,7 +26,17 @@ def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
 
     The film is its first argument.
     """
+    return _where(lambda kind: kind is not SmoothFilm, nothing)
 
+
+def of_shell(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
+    """The same of a function of a `ShelledFilm`; `nothing` is it in all others."""
+    return _where(lambda kind: kind is ShelledFilm, nothing)
+
+
+def _where(
+    has: Callable[[type], bool], nothing: Callable[..., Any]
+) -> Callable[[Callable[..., Any]], Any]:
     def of(function: Callable[..., Any]) -> Any:
         @wraps(function)
         def called(*given: Any) -> Any:
@@ -35,7 +45,7 @@ def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
         @overload(called, jit_options=_OPTIONS, strict=False)
         def chosen(film: Any, *others: Any) -> Callable[..., Any]:
             held = getattr(film, "held", film)
-            return nothing if held.instance_class is SmoothFilm else function
+            return function if has(held.instance_class) else nothing
 
         return called
 

@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models._compile import inner
-from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._of_effects import of_shell
 from loadflow.numerics.lanes import LANES, put, spread, take
 
 
-@beside(lambda film, work, planes, faces: None)
+@of_shell(lambda film, work, planes, faces: None)
 def give_way(film, work, planes, faces):
     """Add to the gaps of points and faces what the pressure makes of the modes, after the law.
 
     A face grows by the mean of both columns beside it, as in a shell that gives way locally.
     """
     modes = work.modes
-    if not film.modes.on:
-        return
     nx, wide = work.u.shape
     for here in range(0, work.u.size, LANES):
         put(modes.change, here, take(work.state[LOAD], here) - film.ring.p_edge)
@@ -64,14 +62,13 @@ def load_of(work, columns, begin):
         put(work.modes.change, here, take(columns, begin + here) * take(work.state[DLOAD], here))
 
 
-@beside(lambda film, work, column: None)
+@of_shell(lambda film, work, column: None)
 def _open_all_over(film, work, column):
     """Growth of the gap by the modes, into `work.modes.change`, by a column of unknowns."""
     modes = work.modes
-    if film.modes.on:
-        load_of(work, work.columns, column * work.u.size)
-        press(film, work, modes.other)
-        open_by(film, modes.other, modes.change)
+    load_of(work, work.columns, column * work.u.size)
+    press(film, work, modes.other)
+    open_by(film, modes.other, modes.change)
 
 
 @inner
@@ -86,11 +83,11 @@ def follow_by(film, work, size):
             put(work.columns, here, own * film.give + more)
 
 
-@beside(lambda film, work: 0.0)
+@of_shell(lambda film, work: 0.0)
 def largest_growth(film, work):
     """Largest growth of the gap at the points of a shell that gives way by modes, clearances."""
     largest, p = 0.0, work.state[LOAD]
-    for i in range(work.u.shape[0] if film.modes.on else 0):
+    for i in range(work.u.shape[0]):
         for k in range(film.nodes.slopes.shape[1]):
             local = film.give * (p[i, k] - film.ring.p_edge)
             largest = max(largest, local + work.modes.growth[i, k])

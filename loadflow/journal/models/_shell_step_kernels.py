@@ -14,7 +14,7 @@ import numpy as np
 from loadflow.journal.cavitation import FILL, P
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import DRAG_SLOPE, FLOW_SLOPE, OPEN
-from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._of_effects import of_shell
 from loadflow.journal.models._ring_kernels import substitute
 from loadflow.journal.models._shell_growth_kernels import load_of, open_by, press
 from loadflow.numerics.lanes import LANES, put, spread, take
@@ -23,11 +23,15 @@ NEAR = 1e-4  # of the amplitudes of a Newton step, what GMRES may leave
 EXACT = 1e-10  # the same of slopes that are told
 
 
-@beside(lambda film, work, wedge, rate, count, left: None)
+@of_shell(lambda film, work, wedge, rate, count, left: None)
 def follow_shell(film, work, wedge, rate, count, left):
     """Let the first `count` columns know what a pressure opens elsewhere, after `substitute`."""
-    if not film.modes.on:
-        return
+    _follow(film, work, wedge, rate, count, left)
+
+
+@inner
+def _follow(film, work, wedge, rate, count, left):
+    """The same: a function by itself, which is called in several places."""
     modes, block = work.modes, work.u.size
     for column in range(count):
         load_of(work, work.columns, column * block)

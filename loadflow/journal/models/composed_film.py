@@ -252,10 +252,12 @@ class Composed(NamedTuple):
     uneven: Uneven
 
 
+class ShelledFilm(Composed):
+    """One in a shell that gives way all over, too."""
+
+
 class SmoothFilm(Composed):
-    """One of smooth surfaces, of laminar flow, in a shell that at most gives way locally, without a
-    supply: loops leave the rest out.
-    """
+    """One of smooth surfaces, of laminar flow, without a supply: loops leave the rest out."""
 
 
 class ComposedWork(NamedTuple):

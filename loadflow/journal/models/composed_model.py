@@ -30,6 +30,7 @@ from loadflow.journal.models.composed_film import (
     ComposedWork,
     Places,
     Regime,
+    ShelledFilm,
     SmoothFilm,
     lanes_of,
     make_work,
@@ -353,8 +354,8 @@ def build(
         places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
         yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
     effects = options.contact, options.turbulence, options.supply
-    smooth = effects == (None, None, None) and not modes.on
-    film = (SmoothFilm if smooth else Composed)(
+    smooth = SmoothFilm if effects == (None, None, None) else Composed
+    film = (ShelledFilm if modes.on else smooth)(
         ring, nodes, places, lanes_of(nodes, places.depth), give, modes,
         rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
         feeding, uneven,

@@ -235,7 +235,7 @@ SHELL = Effect(
     cost=cost_of("shell"),
     larger=no_bound_at_standstill,
     rungs=("grid", "reduced"),
-    partly=(("reduced", "a local shell"),),
+    partly=(("reduced", "any; one that gives way all over without contact"),),
     own_kernels=True,
 )
 
