@@ -14,6 +14,7 @@ from loadflow.numerics.lanes import (
     put,
     spread,
     take,
+    total,
     with_lane,
 )
 
@@ -25,16 +26,18 @@ def _worked_out(a, b, made):
     put(made, LANES, 1.0 - one / other)
     put(made, 2 * LANES, with_lane(spread(3.0), 5, -1.0))
     put(made, 3 * LANES, larger(one, magnitude(other)))
+    return total(one)
 
 
 def test_rows_are_worked_on_as_arrays_are():
     a, b = np.random.default_rng(1).normal(size=(2, 2, LANES))
     made = np.zeros((4, LANES))
-    _worked_out(a, b, made)
+    added = _worked_out(a, b, made)
     expected = [a[1] + 2.0 * b[0], 1.0 - a[1] / b[0], np.full(LANES, 3.0)]
     expected[2][5] = -1.0
     np.testing.assert_allclose(made[:3], expected, rtol=1e-14)
     np.testing.assert_array_equal(made[3], np.maximum(a[1], np.abs(b[0])))
+    np.testing.assert_allclose(added, a[1].sum(), rtol=1e-14)
 
 
 @njit

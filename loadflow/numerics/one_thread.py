@@ -17,7 +17,7 @@ def _libraries() -> ThreadpoolController:
     """Those of NumPy and SciPy; found once, as looking for them takes milliseconds."""
     import scipy.linalg  # noqa: F401
 
-    return ThreadpoolController()
+    return ThreadpoolController().select(user_api="blas")
 
 
 def on_one_thread(solve: Callable[P, T]) -> Callable[P, T]:
@@ -36,7 +36,10 @@ def on_one_thread(solve: Callable[P, T]) -> Callable[P, T]:
 
     @wraps(solve)
     def alone(*args: P.args, **kwargs: P.kwargs) -> T:
-        with _libraries().limit(limits=1, user_api="blas"):
+        known = _libraries()
+        if all(one.num_threads == 1 for one in known.lib_controllers):
+            return solve(*args, **kwargs)  # to set and restore takes six times as long as to look
+        with known.limit(limits=1):
             return solve(*args, **kwargs)
 
     return alone

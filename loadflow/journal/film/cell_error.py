@@ -309,6 +309,11 @@ def drag_error(shear: float, gap: float) -> float:
 
 def _inverse(stiffness: Array) -> Array:
     """How far shafts move under a load, (…, n, n); of a stiffness that is none the least."""
+    if stiffness.shape == (2, 2):  # nearly all; arrays of one number take most of the time
+        (a, b), (c, d) = stiffness.tolist()
+        det, most = a * d - b * c, max(abs(a), abs(b), abs(c), abs(d))
+        if abs(det) > _REGULAR * most * most:
+            return np.array([[d, -b], [-c, a]]) / det
     finite = np.asarray(np.isfinite(stiffness).all(axis=(-2, -1)))
     known = np.where(finite[..., None, None], stiffness, 0.0)
     if stiffness.shape[-1] > 2:

@@ -27,7 +27,7 @@ from loadflow.rolling.rings._ring_rooms import newton_room, square_room, tangent
 from loadflow.rolling.rings._ring_tangent import condense
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
-_PATIENCE_POINTS, _PATIENCE_LINES = 8.0, 4.0
+_PATIENCE_POINTS, _PATIENCE_LINES = 5.0, 4.0
 _PAIRS = 8  # steps remembered
 
 
