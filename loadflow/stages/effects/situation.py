@@ -397,10 +397,10 @@ def _of_series(scene: Scene, case: Case) -> Situation:
         at_root = root_loads(series)
         root = with_mean(at_root[0]), with_mean(at_root[1])
     tilt = load_turbine(scene.turbine.name).rotor.tilt
-    parts = _on_bearings(scene, tilt, force, moment, root)
-    bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
     mean = float(np.abs(series["speed"]).mean())
-    speed = np.array([0.0 if is_parked(case) or mean < SLOWEST else mean])
+    speed = 0.0 if is_parked(case) or mean < SLOWEST else mean
+    parts = _on_bearings(scene, tilt, force, moment, speed, root)
+    bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
     wind = np.array([case.wind_speed])
     thrust = np.minimum(0.8, 7.0 / np.maximum(wind, 1e-3))
     return Situation(scene, wind, np.array([GUST]), np.array([speed]), bearings, thrust)
