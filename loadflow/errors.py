@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 
 class LoadflowError(Exception):
     """Base of all errors that loadflow raises on purpose."""
@@ -25,3 +27,8 @@ class ValidityWarning(UserWarning):
 
 class FormerVersionWarning(UserWarning):
     """Data on disk have an older form; the message says what was brought up to date, and how."""
+
+
+def in_a_line(message: Warning | str, *_: Any, **__: Any) -> str:
+    """Words of a warning alone, without the line of code that warns: a `warnings.formatwarning`."""
+    return f"warning: {message}\n"

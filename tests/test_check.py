@@ -89,6 +89,22 @@ def test_films_are_not_checked_where_the_shaft_only_stands(tmp_path):
     assert result.warnings == []
 
 
+def test_a_film_whose_ends_touch_is_told_as_not_checked(cube, tmp_path):
+    own = {"stiffness": "journal", "takes_moment": True}
+    wide = {"diameter": 3.0, "width": 2.25, "relative_clearance": 0.5e-3}
+    film = {"geometry": wide, "tilt": True, "motion": "transient", "rung": "reduced"}
+    shaft = {"two_point": {"beam": {"supports": [own, own]}}}
+    journal = film | {"grid": [24, 8], "lubricant": {"viscosity": 0.003}}
+    scene = scene_of(cube, "journal.film", journal=journal, shaft=shaft)
+    result = lf.run(scene, out=tmp_path)
+    check, films = (result.tree[name].to_dataset() for name in ("check", "journal"))
+    assert 0 < films["in_contact"].max() < 200
+    assert set(check["quantity"].values[check["stage"].values == "journal"]) == {"minimum film"}
+    assert np.isnan(check["difference"].values[check["stage"].values == "journal"]).all()
+    assert any("is not checked" in text and "touch in" in text for text in result.warnings)
+    assert "not solved" in (tmp_path / "checked" / "report.html").read_text()
+
+
 def test_loads_given_to_a_scene_keep_how_it_reads_them(cube):
     from loadflow.scene.scene import with_loads
 

@@ -334,6 +334,15 @@ def test_a_shaft_lies_straight_in_bearings_that_align_themselves():
     assert CLEARANCES.concerns(scene_of())
 
 
+def test_a_shaft_that_stands_at_times_floats_in_films_whose_asperities_carry_it():
+    contact = {"roughness": 0.56e-6, "contact_modulus": 46.5e9, "factor": 1e-3}
+    rough = {"contact": {"asperities": contact, "friction": 0.15}}
+    for dlc in ("3.1", "4.2", "5.1", "6.4"):
+        assert CLEARANCES.switched(scene_of(loads={"dlc": dlc}), True) is None
+        floats = CLEARANCES.switched(scene_of(loads={"dlc": dlc}, **rough), True)
+        assert CLEARANCES.is_on(floats)
+
+
 def test_one_bearing_that_aligns_itself_leaves_the_tilt_to_the_other_one():
     geometry = {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
     scene = scene_of(own={"N2": {"self_aligning": True, "geometry": geometry}})

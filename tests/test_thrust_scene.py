@@ -308,6 +308,18 @@ def test_a_pad_that_comes_first_changes_nothing_and_it_is_told():
     assert "thrust.bearings.N2.geometry.first_pad" in unused_keys(scene)
 
 
+def test_pads_that_align_themselves_are_not_told_as_unused_beside_their_seat():
+    aligning = COLLAR | {"self_aligning": True}
+    seat = {"kind": "spherical", "radius": 1.5, "friction": 0.1}
+    told = [
+        unused_keys(make_scene({"name": "x", "shaft": SHAFT, "bearings": {"N2": one}}))
+        for one in (aligning, aligning | {"seat": seat})
+    ]
+    where = "thrust.bearings.N2.self_aligning"
+    assert where in told[0]
+    assert where not in told[1]
+
+
 def answer(arguments, capsys):
     with pytest.raises(SystemExit) as stopped:
         main([*arguments, "--json"])

@@ -144,7 +144,8 @@ BASES = {
             "clearance": 1e-4}, "mounting": {
             "inner_share": 1.1, "bore": 1.0, "outside": 1.4, "inner_interference": 2e-4,
             "outer_interference": 1e-4, "shaft_bore": 0.5, "housing_outside": 2.0}},
-        "reduction": FEW, "friction": {"conductance": 50.0}, "results": ["rolling.life"],
+        "reduction": FEW, "friction": {"cooling": {"N2": {"area": 2.5, "transfer": 20.0}}},
+        "results": ["rolling.life"],
     },
     "mounted rollers, loose": {
         "loads": WIND | {"seeds": 1, "rung": "tables"},
@@ -407,7 +408,7 @@ WALKED = {
     "worn bores, events counted": ("lifetime",),
     "tapered rollers": ("rolling", "friction"),
     "bolted ring": ("rolling.outer_ring.supports",),
-    "mounted rollers": ("rolling.mounting",),
+    "mounted rollers": ("rolling.mounting", "friction.cooling"),
     "catalogue of a series": ("rolling.catalogue",),
     "catalogue of constants": ("rolling.catalogue",),
     "catalogue of barrels": ("rolling.catalogue",),
@@ -510,6 +511,7 @@ def files(folder):
 
 
 OTHERS = {
+    "friction.cooling": [{place: {"conductance": 20.0}} for place in ("N", "N2", "M")],
     "journal.heat.points": [3],
     "rolling.outer_ring.supports.0.strength": ["8.8"],
     "rolling.outer_ring.supports.0.hole": [0.034],

@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from loadflow.cli.stated import App, Commands, refuse, stated
-from loadflow.errors import InputError, ValidityWarning
+from loadflow.errors import InputError, ValidityWarning, in_a_line
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -103,7 +103,7 @@ def check_free(path: Path, overwrite: bool) -> None:
 def warnings_in_a_line() -> Iterator[None]:
     """Print what the library warns of as its words alone, without the line of code that warns."""
     before = warnings.formatwarning
-    warnings.formatwarning = lambda message, *_, **__: f"warning: {message}\n"
+    warnings.formatwarning = in_a_line
     try:
         yield
     finally:

@@ -178,7 +178,10 @@ def plan(
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted), "taken": wanted.taken}
         told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
-        told |= {"seeds": [vars(one) for one in seeds_wanted(made, tables)]}
+        told |= {
+            "overloaded": made.overloaded,
+            "seeds": [vars(one) for one in seeds_wanted(made, tables)],
+        }
         print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
     for said in made.shortfalls:
@@ -201,7 +204,7 @@ def plan(
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
     doubts = friction_note(wanted) if asks_for_friction(wanted) else ()
-    for warning in [*wanted.taken, *doubts, *unused_warnings(wanted)]:
+    for warning in [*made.overloaded, *wanted.taken, *doubts, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)
 
 

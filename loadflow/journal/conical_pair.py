@@ -35,6 +35,7 @@ from loadflow.numerics.fields import require
 Array = NDArray[np.float64]
 
 _REACH = 0.9  # share of the clearance that a first eccentricity may take
+_FIRST, _ALL = (80,), (80, 200)  # Newton steps of a search from the first start, from all
 
 
 @dataclass(frozen=True)
@@ -173,14 +174,15 @@ class ConicalPair(ConicalFilms[PairResult]):
         if quick is not None:
             return quick
         chart = self._chart(starts[0].position[3:], free.size > SHIFTS.size)
-        found = search(assembly, chart, starts[:1], wanted, free, limits)
+        found = search(assembly, chart, starts[:1], wanted, free, limits, _FIRST)
+        if found.converged:
+            return found
+        more = between(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
+        found = search(assembly, chart, chain(more, starts[1:]), wanted, free, limits, _ALL)
         if found.converged:
             return found
         stepped = assembly.equilibrium(starts, wanted, free, limits)
-        if stepped.converged:
-            return stepped
-        more = between(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
-        return search(assembly, chart, chain(starts[1:], more), wanted, free, limits)
+        return stepped if stepped.converged else found
 
     def _chart(self, tilt: Array, free: bool) -> PairChart:
         """Where the shaft may be between the cones."""

@@ -148,7 +148,7 @@ class RowTable:
         most : float
             Largest tilt that counts, as `MOST`.
         """
-        rng, worst = np.random.default_rng(0), np.zeros(2)
+        rng, worst, aligned = np.random.default_rng(0), np.zeros(2), set[float]()
         gaps = np.exp(0.5 * (np.log(self.gaps[1:]) + np.log(self.gaps[:-1])))
         places = np.linspace(_GAPS // 3, _GAPS - 2, _PROBES).astype(int)
         tilts = 2 * [most, most / 3.0, 2.0 * most / 3.0]
@@ -160,6 +160,9 @@ class RowTable:
             if self.follows and slope > 0.0:
                 worst = np.maximum(worst, self._apart(at, _over_pivots(self, *at)))
                 at = gap, 0.0, at[2]
+            if at[1] == 0.0 and gap in aligned:
+                continue
+            aligned |= {gap} if at[1] == 0.0 else set()
             worst = np.maximum(worst, self._apart(at, _on_grid(self.row, film, speed, *at)))
         return worst
 

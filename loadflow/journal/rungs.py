@@ -41,8 +41,7 @@ _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
 _REDUCED = frozenset(
-    _LINE
-    | {"shape", "crown", "local_shell", "contact", "heat", "film_heat", "turbulence", "supply"}
+    _LINE | _SHELLS | {"shape", "crown", "contact", "heat", "film_heat", "turbulence", "supply"}
 )
 
 

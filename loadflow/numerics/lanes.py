@@ -186,3 +186,24 @@ def largest(typing_context: Any, row: Any) -> Any:
         return most
 
     return types.float64(_lanes), code
+
+
+@intrinsic
+def total(typing_context: Any, row: Any) -> Any:
+    """Sum of the numbers of a `row`, by halves."""
+
+    def code(context: Any, builder: Any, made: Any, args: Any) -> Any:
+        whole, size = args[0], LANES
+        while size > 1:
+            size //= 2
+            none = ir.Constant(whole.type, ir.Undefined)
+            low, high = (
+                ir.Constant(ir.VectorType(ir.IntType(32), size), [*range(first, first + size)])
+                for first in (0, size)
+            )
+            whole = builder.fadd(
+                builder.shuffle_vector(whole, none, low), builder.shuffle_vector(whole, none, high)
+            )
+        return builder.extract_element(whole, ir.IntType(32)(0))
+
+    return types.float64(_lanes), code

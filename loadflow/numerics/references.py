@@ -16,7 +16,7 @@ import hashlib
 from typing import Any
 
 from llvmlite import ir
-from numba import types
+from numba import typeof, types
 from numba.core import cgutils
 from numba.core.imputils import impl_ret_borrowed
 from numba.core.typing.templates import AttributeTemplate
@@ -91,6 +91,12 @@ def refer(typing_context: Any, held: Any) -> Any:
     if isinstance(held, Reference):
         return held(held), lambda context, builder, made, args: args[0]
     return (Reference(held)(held), code) if _is_named(held) else None
+
+
+def kind_of(value: Any) -> Any:
+    """Type under which a value is handed on in compiled code: a named tuple by its reference."""
+    kind = typeof(value)
+    return Reference(kind) if _is_named(kind) else kind
 
 
 def _is_named(kind: Any) -> bool:

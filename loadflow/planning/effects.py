@@ -12,6 +12,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import effects_of
+from loadflow.stages.effects.rolling import overloaded
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.registry import STAGES
 
@@ -62,10 +63,13 @@ class Estimates:
         Closed-form sizes, by effect and quantity.
     verdict : EffectVerdict, optional
         What a pilot measured; it goes before the indicators.
+    overloaded : tuple of str
+        Rolling bearings that cannot carry the estimated loads, in words.
     """
 
     indicators: Mapping[str, Sizes] = field(default_factory=dict)
     verdict: EffectVerdict | None = None
+    overloaded: tuple[str, ...] = ()
 
     @classmethod
     def of_manifest(cls, manifest: Mapping[str, Any]) -> Estimates:
@@ -115,7 +119,9 @@ def estimates(
         return Estimates({}, verdict)
     at = situation(scene, cases)
     asked = (effect for effect in effects if solving or not effect.solves)
-    return Estimates({effect.name: effect.indicator(at) for effect in asked}, verdict)
+    told = overloaded(at) if "rolling" in {effect.model for effect in effects} else ()
+    sizes = {effect.name: effect.indicator(at) for effect in asked}
+    return Estimates(sizes, verdict, tuple(told))
 
 
 def concerned(scene: Scene, stages: Iterable[str]) -> list[Effect]:

@@ -107,6 +107,8 @@ class Plan:
         All effects that the stages could have.
     shortfalls : tuple of str
         For each result that is not expected to be accurate enough: how far off, why, what helps.
+    overloaded : tuple of str
+        Rolling bearings that cannot carry the estimated loads, in words.
     """
 
     scene: Scene
@@ -118,6 +120,7 @@ class Plan:
     accurate: bool
     effects: tuple[EffectInPlan, ...] = ()
     shortfalls: tuple[str, ...] = field(default=())
+    overloaded: tuple[str, ...] = field(default=())
 
     def of_scope(self, scope: Literal["case", "run"]) -> Iterator[Step]:
         """Yield the steps of one scope, in the order of the flow."""
@@ -175,6 +178,7 @@ def make_plan(
         choice.met,
         effects,
         tuple(shortfalls(scene, choice)) if scene.asks else (),
+        choice.estimates.overloaded,
     )
 
 

@@ -38,7 +38,7 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
             "difference": (
                 "check",
                 np.array([row.value for row in found]),
-                {"units": "1", "long_name": "largest relative change against the better model"},
+                {"units": "1", "long_name": "largest relative change, NaN where not solved again"},
             ),
             "allowed": (
                 "check",
@@ -93,7 +93,15 @@ def warnings(tree: xr.DataTree) -> list[str]:
             f"{quantity} moves by {percent(row['difference'].item())} with "
             f"{row['against'].item()} ({row['case'].item()})",
         )
-    return [f"{stage}: {text}" for (stage, _), text in worst.items()]
+    found = [f"{stage}: {text}" for (stage, _), text in worst.items()]
+    missed = check.isel(check=np.isnan(check["difference"].values))
+    if missed.sizes["check"]:
+        row = missed.isel(check=0)
+        found.append(
+            f"{row['stage'].item()}: {row['quantity'].item()} is not checked "
+            f"({row['case'].item()}): {row['against'].item()}"
+        )
+    return found
 
 
 def _sure(scene: Scene, case: Case, parts: Mapping[str, Any]) -> list[str]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from loadflow.numerics.references import refer
 
-from ._compile import kernel, once
+from ._compile import inner_once, kernel, once
 from ._wind_kernels import hub_wind
 from .aero._kernels import solve
 from .aero._section_kernels import aerodynamics
@@ -52,6 +52,99 @@ from .structure._kernels import (
 )
 
 
+@inner_once
+def respond(
+    m, c, schedule, dt, step, time, since, controlled, speed, turned, state, blade_pitch, q, v, acc,
+    h, h_rate, h_acc, torsions, room, out,
+):  # fmt: skip
+    """Second half of a step: what rotor, tower and control do under the forces in `room`.
+
+    `speed`, `turned`: predicted speed and azimuth of the rotor; `since`: time for what lags, 0
+    where it is steady; the others as in `march`. By itself, so that two processes can compile the
+    halves at once, see `loop.compile_response`.
+    """
+    sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
+    shape, motion, force, answer, found = (
+        room.shape, room.motion, room.force, room.answer, room.found
+    )  # fmt: skip
+    bend, new, inertia, load = room.bend, room.new, room.inertia, room.load
+    drift, gravity, jerk, total, own = room.drift, room.gravity, room.jerk, room.total, room.own
+    twists = torsions.shape[1] > 0
+    for b in range(m.blades):
+        azimuth = turned + 2 * np.pi * b / m.blades
+        if twists:
+            torsion(
+                m, b, since, speed, azimuth, drift, gravity, force[b], motion[b], torsions[b],
+                room,
+            )  # fmt: skip
+        blade_equations(
+            m, b, dt, speed, azimuth, shape[b], drift, gravity, force[b], motion[b], q[b], v[b],
+            acc[b], answer[b], inertia, load, room,
+        )  # fmt: skip
+    held = 0.0
+    if controlled:
+        held = brake(c, state, dt)
+        load[0] -= m.gear_ratio * state[S_TORQUE]
+    h_rate[0] = state[S_SPEED]
+    frame_acceleration(
+        m.frame, m.hub_mass, dt, controlled, held, inertia, load, gravity, h, h_rate, h_acc,
+        room, found,
+    )  # fmt: skip
+    rate = found[0, 0]
+    for axis in range(6):
+        jerk[axis] = total[axis] = 0.0
+    for j in range(count):
+        new[j] = found[j, 0] if j > 0 else 0.0
+        for axis in range(6):
+            jerk[axis] += m.frame.reach[j, axis] * found[j, 0]
+    h_rate[0] = 0.0
+    step_on(dt, new, h, h_rate, h_acc)
+
+    for b in range(m.blades):
+        azimuth = turned + 2 * np.pi * b / m.blades
+        pitch = blade_pitch[b] + m.pitch_offset[b]
+        for k in range(modes):
+            bend[k] = answer[b, k, 0]
+            for j in range(count):
+                bend[k] += answer[b, k, 1 + j] * found[j, 0]
+        step_on(dt, bend, q[b], v[b], acc[b])
+        deflection(m, pitch, shape[b], q[b], v[b], motion[b])
+        if b == 0:
+            last = sections - 1
+            out[step, TIP] = motion[b, last, 0] + m.prebend[last] * np.cos(pitch)
+        blade_root(
+            m, b, speed, azimuth, shape[b], drift, gravity, jerk, force[b], motion[b], acc[b],
+            total, own,
+        )  # fmt: skip
+        if b == 0:
+            for axis in range(6):
+                out[step, ROOT + axis] = own[axis]
+        out[step, COLUMNS + b] = blade_pitch[b]
+
+    out[step, SPEED] = state[S_SPEED] + h_rate[twist]
+    out[step, PITCH] = blade_pitch[0]
+    out[step, AZIMUTH] = (state[S_AZIMUTH] + h[twist]) % (2 * np.pi)
+    for axis in range(3):
+        out[step, FX + axis] = total[axis] + m.hub_mass * (gravity[axis] - jerk[axis])
+        out[step, MX + axis] = total[3 + axis]
+    out[step, MX] -= m.hub_inertia * jerk[3]
+    out[step, TORQUE] = state[S_TORQUE]
+    out[step, STATE] = state[S_STATE]
+    out[step, GENERATOR] = m.gear_ratio * state[S_SPEED]
+    moves = m.frame.carries[min(1, count - 1)] > 0.0
+    out[step, FORE_AFT] = h[1] if moves else 0.0
+    out[step, SIDE_SIDE] = h[2] if moves else 0.0
+
+    old = state[S_SPEED]
+    if controlled:
+        control(c, schedule, state, blade_pitch, m.gear_ratio * old, total[4], total[5], time, dt)
+        next_speed = old + dt * (1.5 * rate - 0.5 * state[S_RATE])
+        if held > 0.0 and next_speed * old <= 0.0 and old != 0.0:
+            next_speed = rate = 0.0  # friction stops the rotor, it does not turn it back
+        state[S_SPEED], state[S_RATE] = next_speed, rate
+    state[S_AZIMUTH] += 0.5 * dt * (old + state[S_SPEED])
+
+
 @once
 def march(
     m, c, schedule, inflow, dt, steps, start, fresh, controlled, state, blade_pitch, q, v, acc,
@@ -65,14 +158,10 @@ def march(
     `room` is a `Room`; `out` (steps, COLUMNS + blades) is filled.
     """
     m, c, schedule, inflow, room = refer(m), refer(c), refer(schedule), refer(inflow), refer(room)
-    sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
-    shape, motion, force, answer, found = (
-        room.shape, room.motion, room.force, room.answer, room.found
-    )  # fmt: skip
-    q_ahead, v_ahead, bend = room.q_ahead, room.v_ahead, room.bend
-    ahead, rate_ahead, new = room.ahead, room.rate_ahead, room.new
+    sections, count, twist = m.radius.size, h.size, m.frame.twist
+    shape, motion, force = room.shape, room.motion, room.force
+    q_ahead, v_ahead, ahead, rate_ahead = room.q_ahead, room.v_ahead, room.ahead, room.rate_ahead
     inertia, load, drift, gravity = room.inertia, room.load, room.drift, room.gravity
-    jerk, total, own = room.jerk, room.total, room.own
     twists = torsions.shape[1] > 0
     for step in range(steps):
         time = start + step * dt
@@ -98,85 +187,13 @@ def march(
             m, inflow, step, time, turned, room.pitch, speed, tilt, drift, motion, state, guess,
             wake, induced, since, room, force,
         )  # fmt: skip
-        for b in range(m.blades):
-            azimuth = turned + 2 * np.pi * b / m.blades
-            if twists:
-                torsion(
-                    m, b, since, speed, azimuth, drift, gravity, force[b], motion[b], torsions[b],
-                    room,
-                )  # fmt: skip
-            blade_equations(
-                m, b, dt, speed, azimuth, shape[b], drift, gravity, force[b], motion[b], q[b], v[b],
-                acc[b], answer[b], inertia, load, room,
-            )  # fmt: skip
         state[S_AXIAL], state[S_Y], state[S_Z] = mean_x, mean_y, mean_z
-
-        held = 0.0
-        if controlled:
-            held = brake(c, state, dt)
-            load[0] -= m.gear_ratio * state[S_TORQUE]
-        h_rate[0] = state[S_SPEED]
-        frame_acceleration(
-            m.frame, m.hub_mass, dt, controlled, held, inertia, load, gravity, h, h_rate, h_acc,
-            room, found,
-        )  # fmt: skip
-        rate = found[0, 0]
-        for axis in range(6):
-            jerk[axis] = total[axis] = 0.0
-        for j in range(count):
-            new[j] = found[j, 0] if j > 0 else 0.0
-            for axis in range(6):
-                jerk[axis] += m.frame.reach[j, axis] * found[j, 0]
-        h_rate[0] = 0.0
-        step_on(dt, new, h, h_rate, h_acc)
-
-        for b in range(m.blades):
-            azimuth = turned + 2 * np.pi * b / m.blades
-            pitch = blade_pitch[b] + m.pitch_offset[b]
-            for k in range(modes):
-                bend[k] = answer[b, k, 0]
-                for j in range(count):
-                    bend[k] += answer[b, k, 1 + j] * found[j, 0]
-            step_on(dt, bend, q[b], v[b], acc[b])
-            deflection(m, pitch, shape[b], q[b], v[b], motion[b])
-            if b == 0:
-                last = sections - 1
-                out[step, TIP] = motion[b, last, 0] + m.prebend[last] * np.cos(pitch)
-            blade_root(
-                m, b, speed, azimuth, shape[b], drift, gravity, jerk, force[b], motion[b], acc[b],
-                total, own,
-            )  # fmt: skip
-            if b == 0:
-                for axis in range(6):
-                    out[step, ROOT + axis] = own[axis]
-            out[step, COLUMNS + b] = blade_pitch[b]
-
-        out[step, SPEED] = state[S_SPEED] + h_rate[twist]
-        out[step, PITCH] = blade_pitch[0]
-        out[step, AZIMUTH] = (state[S_AZIMUTH] + h[twist]) % (2 * np.pi)
-        for axis in range(3):
-            out[step, FX + axis] = total[axis] + m.hub_mass * (gravity[axis] - jerk[axis])
-            out[step, MX + axis] = total[3 + axis]
-        out[step, MX] -= m.hub_inertia * jerk[3]
         hub = hub_wind(m, inflow, step, time)
         out[step, WIND_X], out[step, WIND_Y], out[step, WIND_Z] = hub[0], hub[1], hub[2]
-        out[step, TORQUE] = state[S_TORQUE]
-        out[step, STATE] = state[S_STATE]
-        out[step, GENERATOR] = m.gear_ratio * state[S_SPEED]
-        moves = m.frame.carries[min(1, count - 1)] > 0.0
-        out[step, FORE_AFT] = h[1] if moves else 0.0
-        out[step, SIDE_SIDE] = h[2] if moves else 0.0
-
-        old = state[S_SPEED]
-        if controlled:
-            control(
-                c, schedule, state, blade_pitch, m.gear_ratio * old, total[4], total[5], time, dt
-            )
-            next_speed = old + dt * (1.5 * rate - 0.5 * state[S_RATE])
-            if held > 0.0 and next_speed * old <= 0.0 and old != 0.0:
-                next_speed = rate = 0.0  # friction stops the rotor, it does not turn it back
-            state[S_SPEED], state[S_RATE] = next_speed, rate
-        state[S_AZIMUTH] += 0.5 * dt * (old + state[S_SPEED])
+        respond(
+            m, c, schedule, dt, step, time, since, controlled, speed, turned, state, blade_pitch, q,
+            v, acc, h, h_rate, h_acc, torsions, room, out,
+        )  # fmt: skip
 
 
 @kernel

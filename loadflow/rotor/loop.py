@@ -8,14 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.numerics.references import kind_of
+from loadflow.turbines import load_turbine
 
 from . import _kernels as kernels
 from . import slots as k
 from .aero._airfoil_kernels import SECTION_STATES
 from .control._kernels import control_torque
-from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule
+from .control.constants import IDLE, PARK, UNEVENTFUL, Controller, Schedule, controller
 from .inflow import Inflow
-from .machine import Machine
+from .machine import Machine, machine
+from .options import RotorOptions
 from .room import room_for
 
 Array = NDArray[np.float64]
@@ -152,3 +155,26 @@ def run(
             f"wind {out[last, k.WIND_X]:.4g} m/s"
         )
     return out
+
+
+def compile_response() -> None:
+    """Compile the half of the loop that answers the forces of the air, where it is not on the disk.
+
+    A process that calls `run` for the first time compiles the loop, flow first, and takes what it
+    finds of the other half by then. The kernels are the same for all turbines and options.
+    """
+    plant = load_turbine("nrel-5mw")
+    m = machine(plant, RotorOptions())
+    kernels.respond.compile(response_kinds(m, controller(plant), 0.025))
+
+
+def response_kinds(m: Machine, c: Controller, dt: float) -> tuple[object, ...]:
+    """Types of what the loop hands to its second half, see `_kernels.respond`."""
+    s = _state(m, 10.0, 0.0)
+    step, time, since, controlled, speed, turned = 0, 0.0, dt, True, s.speed, s.azimuth
+    given = (
+        m, c, UNEVENTFUL, dt, step, time, since, controlled, speed, turned, s.scalars, s.pitch,
+        s.modes, s.mode_speed, s.mode_acceleration, s.frame, s.frame_speed, s.frame_acceleration,
+        s.torsion, room_for(m), np.zeros((1, k.COLUMNS + m.blades)),
+    )  # fmt: skip
+    return tuple(kind_of(value) for value in given)

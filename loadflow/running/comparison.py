@@ -23,6 +23,7 @@ from loadflow.report.compare_page import write_comparison
 from loadflow.running.candidates import candidate_scene, candidates_for, chosen_of
 from loadflow.running.executor import HERE, Executor, Lost, executor
 from loadflow.running.folder import answered, finished_parts, part_file, read_manifest
+from loadflow.running.kept_numbers import keep, kept, key_of
 from loadflow.running.parts import digest_of
 from loadflow.running.result import Run
 from loadflow.running.runner import Report, run_on
@@ -123,8 +124,7 @@ def compare(
         how = Means(where, overwrite, progress)
         loads = shared_loads(scene, out, how)
         finished, failures = run_candidates(loads, chosen, loads.folder / "candidates", how)
-        judge = _Judge(loads, finished, scene.as_built)
-        answers = [*how.outcomes("numbers and tolerances", judge, finished)]
+        answers = _answers(loads, finished, scene.as_built, how)
     found = compared(loads.scene, finished, answers, failures, without_place)
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
@@ -133,25 +133,51 @@ def compare(
     return done
 
 
+def _answers(
+    loads: SharedLoads, finished: Sequence[Finished], given: AsBuilt, how: Means
+) -> list[Judged]:
+    """What is said of each candidate: found before, or found now and kept as soon as it is."""
+    standing = (one for run in finished for one in bearings(run.scene, run.rooms))
+    places = [*dict.fromkeys(one["place"] for one in standing)]
+    told = {
+        "loads": {step.name: step.digest for step in loads.plan.steps},
+        "cases": [case.name for case in loads.plan.cases],
+        "places": places,
+        "as built": given.model_dump(),
+    }
+    keys = {run.name: key_of(run, **told) for run in finished}
+    found = {}
+    if not how.overwrite:
+        before = {run.name: kept(run, keys[run.name]) for run in finished}
+        found = {name: one for name, one in before.items() if one is not None}
+    missing = [run for run in finished if run.name not in found]
+    if missing:
+        judge = _Judge(loads, places, given, keys)
+        new = how.outcomes("numbers and tolerances", judge, missing)
+        found |= {one.name: one for one in new}
+    return [found[run.name] for run in finished]
+
+
 class _Judge:
     """What is said of a finished candidate, wherever it is asked."""
 
-    def __init__(self, loads: SharedLoads, finished: Sequence[Finished], given: AsBuilt) -> None:
-        self.folder, self.given = loads.folder, given
-        standing = (one for run in finished for one in bearings(run.scene, run.rooms))
-        places = dict.fromkeys(one["place"] for one in standing)
+    def __init__(
+        self, loads: SharedLoads, places: Sequence[str], given: AsBuilt, keys: Mapping[str, str]
+    ) -> None:
+        self.folder, self.given, self.keys = loads.folder, given, keys
         self.spectrum = (
-            load_spectrum(loads.scene, finished_cases(loads), [*places], CLASSES)
+            load_spectrum(loads.scene, finished_cases(loads), places, CLASSES)
             if given.any
             else None
         )
 
     def __call__(self, run: Finished) -> Judged:
         """Its numbers, with their bands by tolerances where there are any."""
-        one = judged(run, self.folder)
-        if self.spectrum is None:
-            return one
-        return with_bands(one, run, self.spectrum, self.given)
+        found = judged(run, self.folder)
+        if self.spectrum is not None:
+            found = with_bands(found, run, self.spectrum, self.given)
+        keep(run, self.keys[run.name], found)
+        return found
 
 
 @dataclass(frozen=True)

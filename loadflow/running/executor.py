@@ -11,6 +11,7 @@ import logging
 import os
 import signal
 import threading
+import warnings
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import (
     CancelledError,
@@ -26,7 +27,7 @@ from multiprocessing import get_context, parent_process
 from threading import Thread
 from typing import Any, Protocol, TypeVar
 
-from loadflow.errors import InputError, LoadflowError
+from loadflow.errors import InputError, LoadflowError, in_a_line
 from loadflow.planning.pilot import in_turn
 
 Item = TypeVar("Item")
@@ -205,9 +206,13 @@ def _ignore_errors_of(thread: Thread | None) -> None:
 
 
 def _start_worker() -> None:
-    """One BLAS thread, as the cases run in parallel; the parent alone answers to the keyboard."""
+    """One BLAS thread, as the cases run in parallel; the parent alone answers to the keyboard.
+
+    Its warnings stand between lines of progress, as words.
+    """
     from threadpoolctl import threadpool_limits
 
+    warnings.formatwarning = in_a_line
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     threadpool_limits(1)
     Thread(target=_end_with_parent, daemon=True).start()

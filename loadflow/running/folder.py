@@ -28,8 +28,11 @@ from loadflow.schemas import Schema
 from loadflow.stages.stage import Stage
 from loadflow.storage import target_of, write_text
 
-FILES = ("scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log")
-"""What a run writes beside its parts."""
+FILES = (
+    "scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log",
+    "numbers.json",
+)  # fmt: skip
+"""What a run, and a comparison of it, writes beside its parts."""
 
 
 def _refined(manifest: dict[str, Any]) -> tuple[dict[str, Any], list[str]]:

@@ -251,7 +251,7 @@ def _run(
         profile.write(folder / FILE, where.workers)
     log.info("finished, %d parts have no answer", len(failures))
     bores = told_bores(tree.children)
-    notes = (*scaling_note(scene), *friction_note(scene), *scene.taken, *bores)
+    notes = (*plan.overloaded, *scaling_note(scene), *friction_note(scene), *scene.taken, *bores)
     return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
 
 

@@ -3,10 +3,11 @@ every process at once.
 
 numba keeps compiled kernels on the disk, but what they are compiled for is known only when they
 are called. So the questions of the pilot are asked of a load case in miniature first: one process
-simulates the first load case of the run, while another takes made-up loads through films, and the
-first that is free through contacts, through simpler films, if their loops are others, or through
-stages that no question is about. The plan's own stages follow in the same way. What is compiled
-there, all workers then load. Marks beside numba's files tell the next run that this is done.
+simulates the first load case of the run, while another compiles a half of the rotor's loop for it,
+takes made-up loads through films, and the first that is free through contacts, through simpler
+films, if their loops are others, or through stages that no question is about. The plan's own stages
+follow in the same way. What is compiled there, all workers then load. Marks beside numba's files
+tell the next run that this is done.
 """
 
 from __future__ import annotations
@@ -63,9 +64,10 @@ SIMPLER = ", simpler"
 
 SECONDS = {
     "journal": 36.0,
-    "loads": 22.0,
     "rolling": 20.0,
+    "loads": 18.0,
     "thrust": 16.0,
+    "rotor": 9.0,
     f"journal{SIMPLER}": 10.0,
     "shaft": 1.0,
 }
@@ -81,6 +83,9 @@ WHAT = "compiling kernels, once on this machine"
 AS_CALLED = "compiling kernels as they are called, about a minute, once on this machine"
 """What a process alone says of it."""
 
+ROTOR = "rotor"
+"""Job of the half of the rotor's loop that the job of the loads finds compiled when it needs it."""
+
 OTHER = "other"
 """Job of the stages after the loads."""
 
@@ -94,7 +99,8 @@ def compile_for_pilot(
     """Compile what the questions of a pilot call, each model in a process of its own.
 
     The rotor comes first: all that is asked needs its loads, even where no question is about them.
-    It is compiled by the loads of a case of the run, which are kept in `folder` for `adopt`. One
+    It is compiled by the loads of a case of the run, which are kept in `folder` for `adopt`, while
+    another process compiles half of its loop, see `loadflow.rotor.loop.compile_response`. One
     more job takes the stages that no question is about, by the plan that is `expected` before the
     pilot. What the plan after the pilot calls beside these, `compile_kernels` compiles.
 
@@ -110,7 +116,7 @@ def compile_for_pilot(
         early = Path(tempfile.mkdtemp(prefix=EARLY, dir=folder))
         folders = {"loads": early, OTHER: Path(place)}
         work = partial(_for_pilot, questions=questions, plan=expected(), folders=folders)
-        simulated = ("loads",) if scene.loads.source == "simulate" else ()
+        simulated = ("loads", ROTOR) if scene.loads.source == "simulate" else ()
         simpler = (f"{name}{SIMPLER}" for name in models if without_own_kernels(questions, name))
         _compile(work, {*simulated, *models, *simpler, OTHER}, marks, where, say)
 
@@ -165,7 +171,7 @@ def compile_kernels(plan: Plan, where: Executor, say: Say, folder: Path) -> None
     process compiles a kernel when it first calls it, and machines of a cluster have files of their
     own: neither gains by this.
     """
-    jobs = {"loads", OTHER} if plan.scene.loads.source == "simulate" else {OTHER}
+    jobs = {"loads", ROTOR, OTHER} if plan.scene.loads.source == "simulate" else {OTHER}
     needed = [(step.name, step.rung) for step in plan.steps]
     marks = _marks((needed, sorted(plan.left_out)))
     if _is_done(marks, where):
@@ -189,13 +195,14 @@ def _compile(
 ) -> None:
     """Have all jobs done, and mark that they are.
 
-    The loads begin, so that a case of the run has its loads soon; then the longest job comes first.
-    So contacts are done before the other stages, which solve them, too, and compile nothing twice.
+    The loads and the half of the rotor that they need begin, so that a case of the run has its
+    loads soon; then the longest job comes first. So contacts are done before the other stages,
+    which solve them, too, and compile nothing twice.
     """
     seconds = {job: SECONDS.get(job, QUICK) for job in jobs}
 
     def rank(job: str) -> tuple[bool, float, str]:
-        return job != "loads", -seconds[job], job
+        return job not in ("loads", ROTOR), -seconds[job], job
 
     in_order = sorted(jobs, key=rank)
     left = times_left([seconds[job] for job in in_order], where.workers)
@@ -214,15 +221,17 @@ def _compile(
 
 
 def _for_pilot(job: str, questions: Questions, plan: Plan, folders: dict[str, Path]) -> str:
-    """Do one job of `compile_for_pilot`."""
+    """Do one job of `compile_for_pilot`; loads of a case are simulated before they are asked of."""
+    told = ""
+    if job == ROTOR or job in folders:
+        asked = set(questions.models) - {"loads", "shaft"}  # the others need them; soon done
+        steps = tuple(step for step in plan.steps if step.name not in asked)
+        told = _of_plan(job, replace(plan, steps=steps), folders)
     model = job.removesuffix(SIMPLER)
     mine = without_own_kernels(questions, model) if job != model else questions
-    told = _asked_in_miniature(model, mine) if mine and model in mine.models else ""
-    if told or job not in folders:
+    if told or mine is None or model not in mine.models:
         return told
-    asked = set(questions.models) - {"loads", "shaft"}  # which the others need, and are soon done
-    steps = tuple(step for step in plan.steps if step.name not in asked)
-    return _of_plan(job, replace(plan, steps=steps), folders)
+    return _asked_in_miniature(model, mine)
 
 
 def _asked_in_miniature(model: str, questions: Questions) -> str:
@@ -243,6 +252,11 @@ def _of_plan(job: str, plan: Plan, folders: dict[str, Path]) -> str:
     """Run stages on one case; what fails here is told by the run itself."""
     try:
         with few_collections():
+            if job == ROTOR:
+                from loadflow.rotor.loop import compile_response
+
+                compile_response()
+                return ""
             do = _first_loads if job == "loads" else _in_miniature
             return "; ".join(do(plan, folders[job]).values())
     except Exception as error:

@@ -50,7 +50,8 @@ def surrounded(data: dict[str, Any]) -> dict[str, Any]:
         }
     friction = found.get("friction", {})
     if isinstance(friction, dict):
-        gives = "conductance" in friction or any(_is_mounted(one.get("rolling")) for one in every)
+        gives = any(_is_mounted(one.get("rolling")) for one in every)
+        gives = gives or not {"conductance", "cooling"}.isdisjoint(friction)
         known = {"ambient_temperature": ambient} if gives else {}
         known |= {"temperature": ambient} if cold else {}
         found["friction"] = known | friction

@@ -82,7 +82,7 @@ def _followable(options: Journal) -> bool:
     """Whether the loop knows the film of a bearing."""
     film, line = options.film_model, Line(tilt=np.zeros((1, 2)))
     plain = options.heat is None or isinstance(options.heat, Heat)
-    pads = options.geometry.shape.segments
+    pads = any(part.tilting for part in options.geometry.shape.segments)
     return plain and not pads and why_not("in_motion", film, options.geometry, line) is None
 
 

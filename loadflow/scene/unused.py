@@ -118,6 +118,8 @@ def _differs(scene: Scene, section: str, key: str) -> bool:
     *tables, last = key.split(".")
     for table in tables:
         part = part[table] if isinstance(part, dict) else getattr(part, table)
+    if isinstance(part, dict):
+        return last in part
     return last in part.changed if isinstance(part, Section) else bool(getattr(part, last))
 
 
@@ -130,7 +132,9 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     heats = [journal.at(place).heat for journal in journals for place in journal.bearings]
     warm = [heat for heat in heats if heat is not None]
     rolls = scene.wants("rolling") or any(one.rolling is not None for one in others)
-    sheds = rolls and (scene.friction.conductance is not None or mounted(scene))
+    friction = scene.friction
+    cooled = friction.conductance is not None or friction.cooling
+    sheds = rolls and (bool(cooled) or mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):
         yield "temperature", "no bearing gives heat off to its surroundings, or starts cold"
@@ -321,6 +325,8 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
     bends = any(map(shaft.bends_at, scene.journal.bearings))
     if not (scene.journal.tilt or held or (scene.asks and bends)):
         for key in ("alignment", "self_aligning"):
+            if key == "self_aligning" and journal.seat is not None:  # plans count what it leaves
+                continue
             yield key, "only a film with tilt knows it; set journal.tilt, with a beam as the shaft"
     if "grading" not in RUNGS[journal.rung].at_rest:
         yield "grading", f'rung "{journal.rung}" has no graded mesh'
@@ -372,7 +378,9 @@ def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "thrust.tilt", "pads that are self_aligning follow the collar"
     bends = any(map(scene.shaft.bends_at, scene.thrust.collars))
     if not scene.thrust.tilt and not (scene.asks and bends):
-        for place in (name for name, one in scene.thrust.collars.items() if one.self_aligning):
+        for place, one in scene.thrust.collars.items():
+            if not one.self_aligning or one.seat is not None:  # plans count what a seat leaves
+                continue
             where = f"thrust.bearings.{place}.self_aligning"
             yield where, "only films with tilt know it; set thrust.tilt, with a beam as the shaft"
     for place, one in scene.thrust.bearings.items():

@@ -93,13 +93,14 @@ def mounted(scene: Scene) -> bool:
     return any(part.mounting is not None for part in every)
 
 
-_OF_LIFE = ("lubricant", "temperature", "cleanliness", "conductance", "ambient_temperature")
+_OF_COOLING = ("conductance", "cooling", "ambient_temperature")
+_OF_LIFE = ("lubricant", "temperature", "cleanliness", *_OF_COOLING)
 """Keys of friction that the modified life reads, too."""
 
-_OF_FILMS = ("lubricant", "temperature", "starvation")
+_OF_FILMS = ("lubricant", "temperature", "cooling", "starvation")
 """Keys of friction that stiffness and damping of contacts with a film read."""
 
-_OF_CLEARANCE = ("temperature", "ambient_temperature")
+_OF_CLEARANCE = ("temperature", "cooling", "ambient_temperature")
 """Keys of friction that the clearance of a mounted bearing reads."""
 
 
@@ -118,9 +119,18 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in type(friction).model_fields:
             if key not in (*vibrate, *rated, *warm):
                 yield key, "the result rolling.friction is not wanted"
-    if friction.conductance is None and not mounted(scene):
-        yield "ambient_temperature", "no friction.conductance, no mounting of a bearing"
-    elif not films and all(_balances(part) for part in scene.rolling.bearings.values()):
+    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
+    stand = {*scene.rolling.bearings}.union(*(rolling.bearings for rolling in others))
+    for place in friction.cooling:
+        if place not in stand:
+            yield f"cooling.{place}", "no rolling bearing stands there, of a candidate neither"
+    if not (friction.balances(stand) or mounted(scene)):
+        yield "ambient_temperature", "no friction.conductance or cooling, no mounting of a bearing"
+    elif not films and all(
+        friction.temperature_at(place) != friction.temperature
+        or (_balances(part) and friction.conductance_at(place) is not None)
+        for place, part in scene.rolling.bearings.items()
+    ):
         yield "temperature", "with a conductance each bearing has that of its heat balance"
     if "rolling.friction" not in scene.results:
         return

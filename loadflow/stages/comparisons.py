@@ -12,6 +12,7 @@ from scipy.ndimage import maximum_filter1d
 
 from loadflow.cube import time_step
 from loadflow.errors import SolverError
+from loadflow.quantities import percent
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
@@ -243,15 +244,16 @@ def _orbits(
         film = parts["journal"][bearing].to_dataset().load()
         step = time_step(parts["loads"])
         taken, finer = scene.journal.every(step), better.every(step)
-        runs = _running_ratio(case, film)
+        runs, where = _running_ratio(case, film), f"{case.name}, {bearing}"
         if scene.shaft.coupled:
             # all films are one system: where one touches, none goes on as on other cells
-            if any(bool(parts["journal"][name]["in_contact"].any()) for name in options):
-                continue
+            films = [parts["journal"][name]["in_contact"].values > 0 for name in options]
+            touches = np.any(films, axis=0) & np.asarray(counted(film))
             # ends that are too near fail, and cells say how far
             near = film["minimum_film"].values < better.least_film
             runs = np.where(maximum_filter1d(near, 2 * STEPS), np.nan, runs)
-            if np.isnan(runs).all():
+            if touches.any() or np.isnan(runs).all():
+                yield _not_solved(stage, where, touches.mean(), better)
                 continue
         worst = int(np.nanargmax(runs))
         formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
@@ -277,9 +279,19 @@ def _orbits(
             theirs = extremes_of_orbit(path, known * taken // finer)
         except SolverError:
             theirs = dict.fromkeys(FILM, np.nan)
-        where = f"{case.name}, {bearing}"
         found = extremes_of_orbit(ours, known)
         yield from _rows(stage, "journal.film", where, against, found, theirs)
+
+
+def _not_solved(stage: str, where: str, touching: float, options: Journal) -> Difference:
+    """A film that is not solved again, as ends touch in a share of the time, or nearly do always.
+
+    Where they touch it is thinner than the roughness of both surfaces, however fine the cells are.
+    """
+    how = f"touch in {percent(touching)} of the time: h" if touching else "nearly touch: h"
+    least = options.contact_film if touching else options.least_film
+    against = f"no other film; bearing ends {how} < {1e6 * least:.2g} µm"
+    return Difference(stage, "journal.film", "minimum film", where, against, float("nan"))
 
 
 def _running_ratio(case: Case, film: xr.Dataset) -> np.ndarray:

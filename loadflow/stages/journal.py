@@ -21,7 +21,6 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.scene.seats import without_seat
-from loadflow.scene.shaft_place import move_together
 from loadflow.stages.film_kept import RESOLVED, kept_of
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
 from loadflow.stages.film_past import AT_REST, past_of
@@ -30,7 +29,7 @@ from loadflow.stages.film_temperature import mean_temperature
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.running_time import with_running
-from loadflow.stages.shaft_in_films import films_together, runs
+from loadflow.stages.shaft_in_films import films_together, followed_together
 from loadflow.stages.stage import (
     Link,
     Links,
@@ -113,8 +112,8 @@ def _together(scene: Scene, loads: xr.Dataset) -> dict[str, tuple[xr.Dataset, fl
 
     tilt = load_turbine(scene.turbine.name).rotor.tilt
     found: dict[str, tuple[xr.Dataset, float | None]] = {}
-    for concept in scene.shaft.concepts if runs(loads["speed"].values.astype(float)) else ():
-        if move_together(scene.shaft, scene.journal, concept):
+    for concept in scene.shaft.concepts:
+        if followed_together(scene, concept, loads["speed"].values.astype(float)):
             try:
                 both = films_together(scene, concept, loads, tilt)
             except SolverError:

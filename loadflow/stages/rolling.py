@@ -149,7 +149,7 @@ def warm_bearing(
     """
     part, options = scene.rolling.bearings[name], scene.friction
     if part.geometry.friction_model is None or part.oscillation is not None:
-        options = options.model_copy(update={"conductance": None})
+        options = options.model_copy(update={"conductance": None, "cooling": {}})
     force, moment, speed, weight = (
         loads[what].transpose("sample", ...).values
         for what in ("force", "moment", "speed", "weight")

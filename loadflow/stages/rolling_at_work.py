@@ -6,8 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.errors import SolverError
 from loadflow.rolling import FrictionOptions, RollingBearing
 from loadflow.rolling.friction import balanced_temperature
+from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.stages.frames import to_rolling
@@ -34,12 +36,32 @@ def rest(
     """
     load = to_rolling(force), to_rolling(moment)[..., :2]
     turning = speed if part.inertia else None
-    return part.modelled.equilibrium(*load, rings=part.ring_model, speed=turning, strict=strict)
+    try:
+        return part.modelled.equilibrium(*load, rings=part.ring_model, speed=turning, strict=strict)
+    except SolverError as error:
+        over = float(np.max(overload(part, force, moment), initial=0.0))
+        why = f" {overloaded_words('it', over)}" if over > 1 else ""
+        raise SolverError(f"{error}{why}") from error
+
+
+def overload(part: FurtherBearing, force: Floats, moment: Floats) -> Floats:
+    """Static load over the capacity of a bearing under loads (..., 3) in the frame of the cube."""
+    push, turn = to_rolling(force), to_rolling(moment)
+    radial, tilting = (np.hypot(*np.moveaxis(each[..., :2], -1, 0)) for each in (push, turn))
+    return static_overload(part.geometry, radial, push[..., 2], tilting)
+
+
+def overloaded_words(subject: str, over: float) -> str:
+    """Say that a bearing is overloaded, and by which factor."""
+    return (
+        f"{subject} is overloaded: the load is {over:.3g} times its static capacity (ISO 76); a "
+        "larger bearing would help"
+    )
 
 
 def as_stated(part: FurtherBearing, options: Friction) -> FurtherBearing:
     """Return a bearing with the clearance that it has at the temperature of the section."""
-    return part.at_work(options.temperature, options.ambient_temperature)
+    return part.at_work(options.temperature_at(part.bearing), options.ambient_temperature)
 
 
 def at_work(
@@ -76,8 +98,9 @@ def at_work(
         No such temperature, no clearance at it, or no friction model for the bearing.
     """
     ambient = options.ambient_temperature
-    if options.conductance is None:
-        return as_stated(part, options), options.temperature
+    conductance = options.conductance_at(part.bearing)
+    if conductance is None:
+        return as_stated(part, options), options.temperature_at(part.bearing)
     every = part.mounting is None and answer is not None
     count = speed.size if every else min(MOST, speed.size)
     some = np.unique(np.linspace(0, speed.size - 1, count).round().astype(int))
@@ -89,7 +112,7 @@ def at_work(
         warm if part.mounting is not None else answer if every else warm(ambient),
         np.abs(speed[some]),
         friction_options(options, part.geometry, part.idle_torque),
-        options.conductance,
+        conductance,
         ambient,
         weights=None if weight is None else weight[some],
         model=part.modelled.losses,
@@ -107,7 +130,7 @@ _RIB_HEIGHT, _RIB_RADIUS = 0.075, 50.0  # of a roller's diameter, where a scene 
 def friction_options(
     options: Friction, bearing: RollingBearing, idle_torque: float = 0.0
 ) -> FrictionOptions:
-    """Options of the room for a bearing, of a scene's section.
+    """Options of the room for a bearing, of a scene's section as it is for that one.
 
     `idle_torque` (N m) is that of a bearing that swings: its seals, grease and preload without
     load, beside the torque of the section's seals.

@@ -22,7 +22,7 @@ from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.bores import ALIGNED, bores, turned_bores, with_bores
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import labelled
-from loadflow.stages.shaft_in_films import STILL, runs, shaft_on_films
+from loadflow.stages.shaft_in_films import STILL, followed_together, shaft_on_films
 from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage, always, steps_of
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import root_loads
@@ -51,7 +51,7 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
     speed = series["speed"].values.astype(float)
     parts = [
         _with_films(scene, concept, series, tilt)
-        if move_together(scene.shaft, scene.journal, concept) and runs(speed)
+        if followed_together(scene, concept, speed)
         else _freely(concept, series, tilt)
         if seats_felt(scene.shaft, scene.journal, concept)
         else _suspended(scene, concept, force, moment, speed, tilt)

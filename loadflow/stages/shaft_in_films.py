@@ -58,9 +58,16 @@ class FilmsTogether:
     temperature: tuple[float | None, ...]
 
 
-def runs(speed: Floats) -> bool:
-    """Whether the shaft turns at first, so that films carry it; later on squeeze does, too."""
-    return abs(speed[0]) > max(STILL * np.abs(speed).max(), SLOWEST)
+def followed_together(scene: Scene, concept: Concept, speed: Floats) -> bool:
+    """Whether a shaft at `speed` (n,), rad/s, and its films are followed together.
+
+    A smooth film carries a shaft that turns at first; later on squeeze does, too. One that stands
+    at first rests on asperities.
+    """
+    if not move_together(scene.shaft, scene.journal, concept):
+        return False
+    turns = abs(speed[0]) > max(STILL * np.abs(speed).max(), SLOWEST)
+    return turns or all(scene.journal.at(name).contact is not None for name in concept.bearings)
 
 
 def shaft_on_films(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: float) -> xr.Dataset:
@@ -148,7 +155,7 @@ def in_motion(
 
     speed = loads["speed"].values.astype(float)
     concept = scene.shaft.concept_at(bearing)
-    if concept is None or not move_together(scene.shaft, scene.journal, concept) or not runs(speed):
+    if concept is None or not followed_together(scene, concept, speed):
         return follow(scene.journal.at(bearing), loads, shaft, start)
     both = films_together(scene, concept, loads, load_turbine(scene.turbine.name).rotor.tilt)
     return both.path.paths[concept.bearings.index(bearing)]
@@ -193,7 +200,8 @@ def _followed(
             seats=_seats(bearings, series["force"]),
         )  # fmt: skip
         found = follow_shared(
-            geometries, films, series["time"], series["speed"], lying, control, begins
+            geometries, films, series["time"], series["speed"], lying, control, begins,
+            rests=not past.steps,
         )  # fmt: skip
         after = slice(past.steps, None)
         return SharedPath(

@@ -33,6 +33,12 @@ def always_turns(scene: Scene) -> bool:
     return all(row.operating and row.events == ("none",) for row in rows)
 
 
+def carried_throughout(scene: Scene) -> bool:
+    """Whether films carry the shaft through all load cases: it turns, or asperities carry it."""
+    films = map(scene.journal.at, scene.journal.bearings)
+    return always_turns(scene) or all(film.contact is not None for film in films)
+
+
 def runs_throughout(table: xr.Dataset) -> NDArray[np.bool_]:
     """Load cases of a table in which a film is to part the surfaces from beginning to end.
 

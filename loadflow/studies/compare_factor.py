@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
@@ -19,6 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.frames import slope_of
 from loadflow.studies.compare_seeds import Draw, of_extreme, power_of_load
+from loadflow.studies.verdicts import warm_in
 from loadflow.tribology.film import short_bearing
 
 SAMPLES = 40
@@ -106,44 +107,97 @@ def of_load(value: Callable[[float, float], float], load: float) -> float:
     return value(load, 1.0)
 
 
+@dataclass(frozen=True)
+class FilmExtreme:
+    """Smallest film or largest pressure that a run has of a bearing, and its limit.
+
+    Attributes
+    ----------
+    quantity : str
+        Field of an answer: ``"minimum_film"`` or ``"maximum_pressure"``.
+    what, place, case : str
+        In words; where.
+    time : float
+        In its case, s; NaN if it is not known.
+    value, limit : float
+        m, or Pa at the temperature of the film in that case.
+    pick : callable
+        Which of several cases: `numpy.nanmin` of a film, `numpy.nanmax` of a pressure.
+    seen : xarray.DataArray
+        Extremes of the run, by load case.
+    """
+
+    quantity: str
+    what: str
+    place: str
+    case: str
+    time: float
+    value: float
+    limit: float
+    pick: Callable[[np.ndarray], float]
+    seen: xr.DataArray
+
+
+def film_extremes(
+    bearing: Journal | AnyAxial, place: str, table: xr.Dataset
+) -> Iterator[FilmExtreme]:
+    """Yield smallest film and largest pressure of a bearing, those that a run has.
+
+    Limits are those of the verdicts: a material carries less the warmer the film of the case is.
+    """
+    for name, pick, quantity, what in (
+        ("smallest_film", np.nanmin, "minimum_film", "smallest film"),
+        ("largest_pressure", np.nanmax, "maximum_pressure", "largest film pressure"),
+    ):
+        seen = table[name]
+        if not np.isfinite(seen.values).any():
+            continue
+        worst = int(np.nanargmax(seen.values == pick(seen.values)))
+        case = str(table["case"].values[worst])
+        time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
+        limit = bearing.least_film
+        if quantity == "maximum_pressure":
+            limit = bearing.limits.pressure_at(warm_in(table, case))
+        value = float(seen.values[worst])
+        yield FilmExtreme(quantity, what, place, case, time, value, limit, pick, seen)
+
+
 def film_margin(
-    about: Margin,
+    one: FilmExtreme,
     value: Callable[[float, float], float],
     bearing: Journal | AnyAxial,
+    room: str,
     whose: str,
-    allowed: float,
-    seen: xr.DataArray,
-    pick: Callable[[np.ndarray], float],
+    told: str,
 ) -> Margin:
     """Margin of a smallest film or a largest pressure, with what else would bring it to its limit.
 
     Parameters
     ----------
-    about : Margin
-        Where and when, and whose error by models it has: that of a smallest film, or of a pressure.
+    one : FilmExtreme
+        Of the run; motion and what else the models of `value` leave out is taken to change it by
+        the same share under any load.
     value : callable
         Film, m, or pressure, Pa, with factors on load and viscosity.
     bearing : Journal or bearing of pads
         What carries.
-    whose : str
-        The bearing, in words.
-    allowed : float
-        Limit in the model of `value`.
-    seen : xarray.DataArray
-        Extremes of the run, by load case.
-    pick : callable
-        Which of these it is of: `numpy.nanmin` of a film, `numpy.nanmax` of a pressure.
+    room : str
+        Whose error by models it has: ``"journal"`` or ``"thrust"``.
+    whose, told : str
+        The bearing, and the limit, in words.
     """
-    change = ""
-    if about.models[1] == "minimum film":
+    allowed, change = one.limit / one.value * value(1.0, 1.0), ""
+    if one.quantity == "minimum_film":
         factor, thinner = film_factors(value, allowed)
         if thinner > NEVER / WIDEST:
             change = f"{whose}: {oil_told(bearing, thinner)}"
     else:
         factor = pressure_factor(value, allowed)
     power = power_of_load(partial(of_load, value), factor, WIDEST)
-    drawn = of_extreme(seen, pick, factor, power)
-    return replace(about, factor=factor, change=change, drawn=drawn, power=power)
+    return Margin(
+        factor, one.place, one.case, told, change, of_extreme(one.seen, one.pick, factor, power),
+        time=one.time, models=(f"{room}.film", one.quantity.replace("_", " ")), power=power,
+    )  # fmt: skip
 
 
 def pressure_factor(value: Callable[[float, float], float], limit: float) -> float:

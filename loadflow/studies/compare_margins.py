@@ -26,6 +26,7 @@ from loadflow.studies.compare_factor import (
     WIDEST,
     Margin,
     at_time,
+    film_extremes,
     film_margin,
     grown,
     largest_factor,
@@ -39,6 +40,7 @@ from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.rolling_warmth import warmth_of
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
+from loadflow.studies.verdicts import warm_in
 from loadflow.tribology import lubricant
 from loadflow.verdict import Verdict
 
@@ -119,43 +121,29 @@ def _film_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> 
         case = str(table["case"].values[int(np.argmax(table["in_contact"].values))])
         yield Margin(0.0, place, case, f"shaft and shell touch in {place}", f"{place}: thicker oil")
         return
-    pressure = stated.limits.pressure_at(stated.limits.material[0][0])
-    yield from _standing_margin(stated, pressure, place, table)
-    asked = (
-        ("smallest_film", np.nanmin, "minimum_film", stated.least_film, "smallest film"),
-        ("largest_pressure", np.nanmax, "maximum_pressure", pressure, "largest film pressure"),
-    )
-    for name, pick, answer, limit, what in asked:
-        if table[name].isnull().all():
+    yield from _standing_margin(stated, place, table)
+    for one in film_extremes(stated, place, table):
+        sample = at_time(series_of(scene, folder, one.case, place), one.time)
+        value = cache(partial(_film_value, fast_journal(stated), sample, one.quantity))
+        told = f"{one.what} in {place}"
+        if not value(1.0, 1.0) > 0:
+            why = f"{told} ({one.case}): no film at rest under its load"
+            yield Margin(math.nan, place, one.case, uncounted=why)
             continue
-        worst = int(np.nanargmax(table[name].values == pick(table[name].values)))
-        case, seen = str(table["case"].values[worst]), float(table[name].values[worst])
-        time = float(table[f"{name}_time"].values[worst]) if f"{name}_time" in table else math.nan
-        sample = at_time(series_of(scene, folder, case, place), time)
-        value = cache(partial(_film_value, fast_journal(stated), sample, answer))
-        usual = value(1.0, 1.0)
-        if not usual > 0:
-            why = f"{what} in {place} ({case}): no film at rest under its load"
-            yield Margin(math.nan, place, case, uncounted=why)
-            continue
-        allowed = limit / seen * usual  # motion changes a film by the same share there
-        models = "journal.film", answer.replace("_", " ")
-        about = Margin(math.nan, place, case, f"{what} in {place}", time=time, models=models)
-        yield film_margin(about, value, stated, place, allowed, table[name], pick)
+        yield film_margin(one, value, stated, "journal", place, told)
 
 
-def _standing_margin(
-    stated: Journal, limit: float, place: str, table: xr.Dataset
-) -> Iterator[Margin]:
+def _standing_margin(stated: Journal, place: str, table: xr.Dataset) -> Iterator[Margin]:
     """Margin of the specific load F/(B D) of a shaft that stands, in proportion to its loads."""
     if "standing_load" not in table or not table["standing_load"].notnull().any():
         return
     load = table["standing_load"]
     worst = int(np.nanargmax(load.values))
-    area = stated.geometry.width * stated.geometry.diameter
+    case, area = str(table["case"].values[worst]), stated.geometry.width * stated.geometry.diameter
+    limit = stated.limits.pressure_at(warm_in(table, case))
     factor = limit * area / float(load.values[worst])
     yield Margin(
-        factor, place, str(table["case"].values[worst]), f"specific load at standstill in {place}",
+        factor, place, case, f"specific load at standstill in {place}",
         drawn=of_extreme(load, np.nanmax, factor, 1.0),
         time=float(table["standing_load_time"].values[worst]), power=1.0,
         models=("shaft.tilt", "tilt"),  # that of the load, which both follow

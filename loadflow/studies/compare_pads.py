@@ -19,6 +19,7 @@ from loadflow.stages.thrust import follows, lies
 from loadflow.studies.compare_factor import (
     Margin,
     at_time,
+    film_extremes,
     film_margin,
     grown,
     series_of,
@@ -42,39 +43,27 @@ def pad_margins(scene: Scene, folder: Path, place: str, table: xr.Dataset) -> It
         why = f"surfaces of the {bearing.kind} bearing touch in {place}"
         yield Margin(0.0, place, case, why, f"{place}: thicker oil")
         return
-    pressure = bearing.limits.pressure_at(bearing.limits.material[0][0])
-    asked = (
-        ("smallest_film", np.nanmin, "minimum_film", bearing.least_film, "smallest film"),
-        ("largest_pressure", np.nanmax, "maximum_pressure", pressure, "largest film pressure"),
-    )
     moving = follows(scene, bearing) and tabulated(bearing)
-    for name, extreme, field, limit, what in asked:
-        if not np.isfinite(table[name].values).any():
-            continue
-        worst = int(np.nanargmax(table[name].values == extreme(table[name].values)))
-        case, time = str(table["case"].values[worst]), float(table[f"{name}_time"].values[worst])
-        samples = series_of(scene, folder, case, place)
-        samples = samples if moving else at_time(samples, time)
+    for one in film_extremes(bearing, place, table):
+        samples = series_of(scene, folder, one.case, place)
+        samples = samples if moving else at_time(samples, one.time)
         if not lies(scene, bearing, samples):
             samples = samples.drop_vars("tilt", errors="ignore")
-        told = f"{what} of the {bearing.kind} bearing in {place}"
+        told = f"{one.what} of the {bearing.kind} bearing in {place}"
         known, why = np.zeros(1, bool), "solved again, its film carries nowhere"
         try:
             known = pad_films(bearing, against_bore(samples), moving, span_of(bearing)).carried
         except SolverError as error:
             why = str(error)
         if not known.any():
-            yield Margin(math.nan, place, case, uncounted=f"{told} ({case}): {why}")
+            yield Margin(math.nan, place, one.case, uncounted=f"{told} ({one.case}): {why}")
             continue
-        value = cache(partial(value_of, bearing, samples, known, moving, field))
-        usual, seen = value(1.0, 1.0), float(table[name].values[worst])
-        allowed = limit * usual / seen  # what rungs differ by does not pass for a reserve
-        if abs(usual / seen - 1.0) > _TOLD:
-            told += f" (solved again {100 * (usual / seen - 1.0):+.1f} % off that of the run)"
-        models = "thrust.film", field.replace("_", " ")
-        about = Margin(math.nan, place, case, told, time=time, models=models)
+        value = cache(partial(value_of, bearing, samples, known, moving, one.quantity))
+        off = value(1.0, 1.0) / one.value - 1.0
+        if abs(off) > _TOLD:  # what rungs differ by does not pass for a reserve
+            told += f" (solved again {100 * off:+.1f} % off that of the run)"
         whose = f"{bearing.kind} bearing in {place}"
-        yield film_margin(about, value, bearing, whose, allowed, table[name], extreme)
+        yield film_margin(one, value, bearing, "thrust", whose, told)
 
 
 def clearance_used(film: Number, bearing: AnyAxial) -> Number:

@@ -133,13 +133,14 @@ def rolling_risks(
             case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
             place=place,
             note="κ of what turns; its error is that of the speed, with oil as warm as "
-            f"{_oil(scene)}; ISO 281 ends at 0.1, full films begin at 1",
+            f"{_oil(scene, place)}; ISO 281 ends at 0.1, full films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
 
 
-def _oil(scene: Scene) -> str:
-    return "stated" if scene.friction.conductance is None else "its heat balance has it"
+def _oil(scene: Scene, place: str) -> str:
+    cooled = scene.friction.conductance_at(place) is not None
+    return "its heat balance has it" if cooled else "stated"
 
 
 def _slowest(samples: xr.Dataset) -> float:

@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.data import evidence
 from loadflow.quantities import CELSIUS
 from loadflow.rolling import RollerBearing, RollingBearing
-from loadflow.scene.friction import Friction
+from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_factor import oil_told
 from loadflow.studies.compare_result import UNCARRIED, Judged
@@ -134,10 +134,21 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
 
 def _warm(options: Friction) -> str:
     """How warm the oil of rolling bearings is, in words."""
-    if options.conductance is None:
-        return f"{options.temperature - CELSIUS:.0f} °C"
-    air = options.ambient_temperature - CELSIUS
-    return f"as warm as its heat balance has it, {options.conductance:g} W/K to {air:.0f} °C"
+    air, stated = (t - CELSIUS for t in (options.ambient_temperature, options.temperature))
+    cooled = [f"{place} {_one(cooling)}" for place, cooling in options.cooling.items()]
+    if options.conductance is not None:
+        cooled.append(f"{'others ' if cooled else ''}{options.conductance:g} W/K")
+    elif cooled:
+        cooled.append(f"others {stated:.0f} °C as stated")
+    if not cooled:
+        return f"{stated:.0f} °C"
+    return f"as warm as its heat balance has it, {', '.join(cooled)}; the air {air:.0f} °C"
+
+
+def _one(cooling: Cooling) -> str:
+    if cooling.temperature is not None:
+        return f"{cooling.temperature - CELSIUS:.0f} °C as stated"
+    return f"{cooling.total:g} W/K"
 
 
 def _beams(scene: Scene) -> dict[str, str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -12,18 +12,19 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling import RollingBearing, modified_spectrum_life, system_life
+from loadflow.rolling import modified_spectrum_life, system_life
 from loadflow.rolling.rating.life import rating_life_spectrum
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
 from loadflow.stages.film_of_bearing import surely_touching
-from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
+from loadflow.stages.rolling_at_work import at_work, friction_options, rest
 from loadflow.studies.compare_factor import largest_factor
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.grown_films import FACTORS, GrownFilms, fast_journal, pressed
+from loadflow.studies.rolling_warmth import Warmth, power_of_rise
 from loadflow.studies.shaft_through import BentShaft
 
 _CONDITION = "smallest ratio of what else is allowed to what is found, 1 at the limit"
@@ -210,7 +211,7 @@ def _add_film(
         sums.extreme("minimum_film", float(film_of[thin]))
     pressure = pressed(options, samples.isel(sample=asked), answer)
     hardest = int(asked[np.argmax(pressure)])
-    allowed = _allowed_pressure(options, answer, int(np.argmax(pressure)))
+    allowed = allowed_pressure(options, answer, int(np.argmax(pressure)))
     sums.margins[f"largest film pressure in {place}"] = film.crossing(
         hardest, "maximum_pressure", allowed, falls=False
     )
@@ -237,7 +238,8 @@ def _tilt(samples: xr.Dataset) -> np.ndarray:
     return np.hypot(*samples["tilt"].sel(axis=["y", "z"]).transpose("axis", "sample").values)
 
 
-def _allowed_pressure(options: Journal, answer: Any, worst: int) -> float:
+def allowed_pressure(options: Journal, answer: Any, worst: int) -> float:
+    """Largest film pressure, Pa, that the material carries where a sample's film is as warm."""
     coldest = options.limits.material[0][0]
     kelvin = float(answer.temperature[worst]) if options.heat is not None else coldest
     return options.limits.pressure_at(kelvin)
@@ -285,8 +287,9 @@ def _add_rolling(
     """Add what the rolling bearings lose, and how far their limits are."""
     lives: list[_Turned] = []
     for place, stated in parts.items():
-        part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
-        turned = _Turned.of(part, samples, friction)
+        samples = spectrum[place].to_dataset()
+        turned = _Turned.of(stated, samples, friction.of(place))
+        part = turned.part
         lives.append(turned)
         sums.power += turned.power
         sums.turning = max(sums.turning, float(turned.weight.sum()))
@@ -329,31 +332,47 @@ def _add_tilts(sums: _Sums, candidate: Candidate, shaft: BentShaft, spectrum: xr
             sums.conditions[f"tilt of the shaft in {place}"] = share
 
 
+_YEAR = "a year"
+"""What the loads of the spectrum are of: one heat balance of their mean friction."""
+
+
 @dataclass(frozen=True)
 class _Turned:
-    """A rolling bearing under the loads of a lifetime."""
+    """A rolling bearing at work under the loads of a lifetime; `warmth` is that of its oil."""
 
-    bearing: RollingBearing
+    part: FurtherBearing
     load: np.ndarray
     speed: np.ndarray
     weight: np.ndarray
     oil: Any
+    warmth: Warmth
     power: float
     pressure: float
 
     @classmethod
-    def of(cls, part: FurtherBearing, samples: xr.Dataset, options: Friction) -> _Turned:
+    def of(cls, stated: FurtherBearing, samples: xr.Dataset, options: Friction) -> _Turned:
         used = samples.isel(sample=np.flatnonzero(samples["weight"].values > 0))
         force, moment, speed, weight = (
             used[name].transpose("sample", ...).values
             for name in ("force", "moment", "speed", "weight")
         )
+        part, kelvin = at_work(stated, options, force, moment, speed, weight)
+        power = 0.0
+        if options.conductance is not None:
+
+            def under(factor: float) -> float:
+                more = factor * force, factor * moment
+                return at_work(stated, options, *more, speed, weight)[1]
+
+            power = power_of_rise(under, options.ambient_temperature)
+        warmth = Warmth({_YEAR: kelvin}, {_YEAR: power}, options.ambient_temperature)
+        options = options.model_copy(update={"temperature": kelvin})
         answer = rest(part, force, moment, speed, strict=False)
         if not np.all(answer.converged):
             raise SolverError("no equilibrium of a rolling bearing under a load of the spectrum")
         lost = answer.friction(speed, friction_options(options, part.geometry))
         return cls(
-            part.geometry, answer.equivalent_load, speed, weight, lubrication(options),
+            part, answer.equivalent_load, speed, weight, lubrication(options), warmth,
             float((lost.power * weight).sum()), float(answer.maximum_pressure.max()),
         )  # fmt: skip
 
@@ -364,16 +383,17 @@ class _Turned:
 
     def hours(self, factor: float = 1.0) -> float:
         """Rating life, h, with a factor on all loads."""
-        turns = np.abs(self.speed) * self.weight
+        turns, bearing = np.abs(self.speed) * self.weight, self.part.geometry
         life = rating_life_spectrum(
-            self.bearing.rated_capacity, factor * self.load, turns, self.bearing.life_exponent
+            bearing.rated_capacity, factor * self.load, turns, bearing.life_exponent
         )
         return float(life) * 1e6 / self._per_hour
 
     def modified(self, factor: float) -> float:
         """Modified life, h, with a factor on all loads."""
+        oil = replace(self.oil, temperature=self.warmth.under(_YEAR, factor))
         found = modified_spectrum_life(
-            self.bearing, factor * self.load, self.speed, self.oil, self.weight
+            self.part.geometry, factor * self.load, self.speed, oil, self.weight
         )
         return float(found.life) * 1e6 / self._per_hour
 

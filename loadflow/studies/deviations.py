@@ -156,7 +156,7 @@ def _changed(
     journal: Callable[[Journal], dict[str, Any]] | None = None,
     pads: Callable[[Any], Any] | None = None,
     rolling: Callable[[FurtherBearing], dict[str, Any]] | None = None,
-    friction: dict[str, Any] | None = None,
+    friction: Friction | None = None,
 ) -> Built:
     """Bearings with what the functions say for each of them."""
     update: dict[str, Any] = {}
@@ -171,7 +171,7 @@ def _changed(
         further = [part.model_copy(update=rolling(part)) for part in one.rolling.further]
         first: Rolling = one.rolling
         update["rolling"] = first.model_copy(update=rolling(first) | {"further": further})
-    oil = built.friction.model_copy(update=friction or {})
+    oil = built.friction if friction is None else friction
     return replace(built, candidate=one.model_copy(update=update), friction=oil)
 
 
@@ -204,7 +204,7 @@ def _with_viscosity(built: Built, share: float) -> Built:
     def pads(bearing: Any) -> Any:
         return bearing.with_viscosity(factor)
 
-    alike = {"temperature": _as_viscous(built.friction, factor)}
+    alike = built.friction.warmed(lambda kelvin: _as_viscous(built.friction, kelvin, factor))
     return _changed(built, journal=journal, pads=pads, friction=alike)
 
 
@@ -225,7 +225,7 @@ def _with_temperature(built: Built, kelvin: float) -> Built:
         warm = heat.inlet_temperature + kelvin
         return bearing.model_copy(update={"heat": replace(heat, inlet_temperature=warm)})
 
-    warmer = {"temperature": built.friction.temperature + kelvin}
+    warmer = built.friction.warmed(lambda stated: stated + kelvin)
     return _changed(built, journal=journal, pads=pads, friction=warmer)
 
 
@@ -241,7 +241,8 @@ def _with_roughness(built: Built, share: float) -> Built:
     def pads(bearing: Any) -> Any:
         return bearing.model_copy(update=surfaces(bearing))
 
-    rougher = {"roughness": (1.0 + share) * built.friction.roughness}
+    rough = (1.0 + share) * built.friction.roughness
+    rougher = built.friction.model_copy(update={"roughness": rough})
     return _changed(built, journal=rubbing, pads=pads, friction=rougher)
 
 
@@ -256,9 +257,9 @@ def _thicker(oil: Any, factor: float) -> Any:
     return replace(oil, viscosity=factor * oil.viscosity)
 
 
-def _as_viscous(friction: Friction, factor: float) -> float:
+def _as_viscous(friction: Friction, stated: float, factor: float) -> float:
     """Temperature, K, at which the oil of rolling bearings has `factor` times its viscosity."""
-    oil, stated = lubricant(friction.lubricant), friction.temperature
+    oil = lubricant(friction.lubricant)
     wanted = factor * float(oil.kinematic_viscosity(stated))
 
     def missing(kelvin: float) -> float:

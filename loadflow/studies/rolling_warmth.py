@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -83,14 +83,35 @@ def warmth_of(
 
 def _power(scene: Scene, place: str, some: xr.Dataset) -> float:
     """Power of the load that the rise over the air follows."""
-    if scene.friction.conductance is None:
+    if scene.friction.conductance_at(place) is None:
         return 0.0
-    ambient = scene.friction.ambient_temperature
+
+    def under(factor: float) -> float:
+        return warm_bearing(scene, place, grown(some, factor))[1]
+
+    return power_of_rise(under, scene.friction.ambient_temperature)
+
+
+def power_of_rise(under: Callable[[float], float], ambient: float) -> float:
+    """Power of the load that the rise of a balanced temperature over the air follows.
+
+    Parameters
+    ----------
+    under : callable
+        Factor on the loads → temperature, K.
+    ambient : float
+        K.
+
+    Returns
+    -------
+    float
+        0 of a bearing that stands, infinite of one that does not shed more heat.
+    """
     try:
-        rise = warm_bearing(scene, place, some)[1] - ambient
+        rise = under(1.0) - ambient
         if not rise > 0:  # it stands
             return 0.0
-        more = warm_bearing(scene, place, grown(some, _HEAVIER))[1] - ambient
+        more = under(_HEAVIER) - ambient
     except SolverError:  # some samples may lose more than all of them, which their run balanced
         return math.inf
     return math.log(more / rise) / math.log(_HEAVIER)
@@ -113,11 +134,14 @@ def warmest(
         Of the lifetime, of each case.
     """
     values = table["bearing_temperature"].transpose("case", "bearing").values - CELSIUS
-    k, b = np.unravel_index(int(np.argmax(values)), values.shape)
+    k, b = np.unravel_index(int(np.nanargmax(values)), values.shape)
     place, air = str(table["bearing"].values[b]), options.ambient_temperature - CELSIUS
-    if options.conductance is not None:
-        low, high = interval(Groups.of(table), lambda some: float(values[some].max()))
-        note = f"its mean friction and {options.conductance:g} W/K to {air:.0f} °C"
+    if options.balances(table["bearing"].values.tolist()):
+        low, high = interval(Groups.of(table), lambda some: float(np.nanmax(values[some])))
+        own = options.conductance_at(place)
+        note = "as stated"
+        if own is not None:
+            note = f"its mean friction and {own:g} W/K to {air:.0f} °C"
         case = str(table["case"].values[k])
         return Number(float(values[k, b]), "°C", low, high, case=case, place=place, note=note)
     return Number(
@@ -129,16 +153,18 @@ def _needed(
     options: Friction, table: xr.Dataset, power: xr.DataArray | None, share: np.ndarray
 ) -> str:
     """Cooling with which losses make a bearing as warm as stated, in words."""
-    rise, air = options.temperature - options.ambient_temperature, options.ambient_temperature
+    air = options.ambient_temperature
     if power is None:
         return ""
-    if rise <= 0:
+    stated = [options.temperature_at(place) - air for place in power["bearing"].values.tolist()]
+    if min(stated) <= 0:
         return f": no warmer than the air, {air - CELSIUS:.0f} °C"
     often = xr.DataArray(share / share.sum(), {"case": table["case"].values}, ["case"])
+    rise = xr.DataArray(stated, power["bearing"].coords)
     lost = (power.sel(case=table["case"].values) * often).sum("case") / rise
     told = ", ".join(f"{float(each):.3g}" for each in lost.values)
     where = ", ".join(map(str, lost["bearing"].values))
     return (
         f": the losses give it with a cooling of {told} W/K ({where}) to {air - CELSIUS:.0f} °C; "
-        "friction.conductance balances them"
+        "friction.cooling or friction.conductance balances them"
     )

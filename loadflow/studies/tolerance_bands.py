@@ -14,7 +14,7 @@ from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
-from loadflow.scene.friction import Friction
+from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
@@ -37,7 +37,7 @@ from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
-from loadflow.studies.design_point import judge_design
+from loadflow.studies.design_point import allowed_pressure, judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
 from loadflow.studies.load_spectrum import STANDING_SHARE
 from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
@@ -101,12 +101,17 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
 
 
 def _friction(run: Finished) -> Friction:
-    """The section of the scene; with a heat balance at the temperature of the warmest bearing."""
+    """The section of the scene; a bearing with a heat balance is as warm as in its warmest case."""
     options = run.scene.friction
-    if options.conductance is None or "rolling" not in run.tables:
+    if "rolling" not in run.tables:
         return options
-    warmest = float(run.tables["rolling"]["bearing_temperature"].max())
-    return options.model_copy(update={"temperature": warmest, "conductance": None})
+    table = run.tables["rolling"]["bearing_temperature"]
+    warmest = {
+        place: Cooling(temperature=float(table.sel(bearing=place).max()))
+        for place in options.balances(table["bearing"].values.tolist())
+    }
+    stated = {"cooling": options.cooling | warmest, "conductance": None}
+    return options.model_copy(update=stated)
 
 
 def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:
@@ -226,7 +231,8 @@ def _of_films(journal: Journal, films: Mapping[str, Films], seconds: float) -> d
         film = float(np.where(found.judged, answer.minimum_film, np.inf)[found.thin])
         pressure = float(np.where(answer.converged, answer.maximum_pressure, 0.0)[found.hard])
         thinner, higher = heavier.minimum_film[0] / film, heavier.maximum_pressure[1] / pressure
-        reserves = film / options.least_film, options.limits.pressure_at(0.0) / pressure
+        allowed = allowed_pressure(options, answer, found.hard)
+        reserves = film / options.least_film, allowed / pressure
         factors += load_margins(reserves, (thinner, higher))
         thinnest.append(film)
         rough.append(film / options.contact_film)
@@ -261,21 +267,21 @@ def _of_rolling(
     torques: dict[str, list[float]] = {}
     for place, stated in parts.items():
         part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
-        bearing = part.geometry
+        bearing, own = part.geometry, friction.of(place)
         force, moment, speed = (
             samples[name].transpose("sample", ...).values for name in ("force", "moment", "speed")
         )
         turning = samples["weight"].values > 0
         answer = rest(part, force, moment, strict=False)
-        lost = answer.friction(speed, friction_options(friction, bearing))
-        beside = torques_beside(answer, speed, friction_options(friction, bearing), part.catalogue)
+        lost = answer.friction(speed, friction_options(own, bearing))
+        beside = torques_beside(answer, speed, friction_options(own, bearing), part.catalogue)
         for name, torque in {"": lost.torque, **beside}.items():
-            own = _mean(torque, samples["weight"].values * (speed != 0))
-            torques.setdefault(TORQUES[name], []).append(own)
+            mean = _mean(torque, samples["weight"].values * (speed != 0))
+            torques.setdefault(TORQUES[name], []).append(mean)
         thin = least_film_parameter(lost.film_parameter, answer.element_forces)
         slow = turning & (np.abs(speed) <= np.quantile(np.abs(speed[turning]), _SLOW))
         films.append(float(np.median(thin[slow])))
-        kappa = viscosity_ratio(lubrication(friction), speed[turning], bearing.pitch_diameter)
+        kappa = viscosity_ratio(lubrication(own), speed[turning], bearing.pitch_diameter)
         ratios.append(float(kappa.min()))
         share = answer.equivalent_load[turning] / bearing.rated_capacity
         loads.append(float(share.min()) / LIGHT[bearing.element])

@@ -230,7 +230,7 @@ def _pressure(
     """Largest film pressure of a shaft that turns against the material at its temperature."""
     value, case, time = _worst(table, "largest_pressure", "most")
     if case:
-        note = "" if _warm(table, case) else _ISOTHERMAL
+        note = "" if warm_in(table, case) else _ISOTHERMAL
         yield _of_material(
             limits, subject, "largest film pressure", value, table, case, time, note, section
         )
@@ -251,7 +251,7 @@ def _of_standing(
         yield _of_material(limits, subject, what, value / area, table, case, time, note, "journal")
 
 
-def _warm(table: xr.Dataset, case: str) -> float:
+def warm_in(table: xr.Dataset, case: str) -> float:
     """Largest temperature in a case, K; 0 where none is known."""
     if "largest_temperature" not in table:
         return 0.0
@@ -266,7 +266,7 @@ def _of_material(
     """Hold a pressure against the material of the shell."""
     points = ", ".join(f"{p / 1e6:g} MPa at {t - CELSIUS:.0f} °C" for t, p in limits.material)
     return Verdict(
-        subject, what, value, limits.pressure_at(_warm(table, case)), "at most", "Pa",
+        subject, what, value, limits.pressure_at(warm_in(table, case)), "at most", "Pa",
         _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,
         note, f"{section}.limits.material",
     )  # fmt: skip

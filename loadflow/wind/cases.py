@@ -168,14 +168,29 @@ LOAD_CASES = {
 }  # fmt: skip
 
 
+STARTS_IN_WORDS = frozenset((
+    "startup", "start", "shutdown", "stop", "emergency", "gridloss", "fault",
+    "idling", "idle", "parked",
+))  # fmt: skip
+"""Load cases without a number, as names of files say them, in which the shaft stands or starts."""
+
+
 def factor_of_maximum(dlc: str) -> float:
     """γ_f of the largest load of a series of a load case; 1 for one that the table lacks."""
     return LOAD_CASES[dlc].factor_of_maximum if dlc in LOAD_CASES else 1.0
 
 
 def stands_or_starts(dlc: str) -> bool:
-    """Whether the shaft stands, starts or stops in a load case; not in one that the table lacks."""
-    return dlc in LOAD_CASES and LOAD_CASES[dlc].stands_or_starts
+    """Whether the shaft stands, starts or stops in a load case, one of the table or a word.
+
+    Examples
+    --------
+    >>> stands_or_starts("3.1"), stands_or_starts("startup"), stands_or_starts("steady")
+    (True, True, False)
+    """
+    if dlc in LOAD_CASES:
+        return LOAD_CASES[dlc].stands_or_starts
+    return dlc in STARTS_IN_WORDS
 
 
 def load_case(dlc: str) -> LoadCase:

@@ -41,7 +41,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
-from loadflow.studies.compare import in_wide_bore
+from loadflow.studies.compare import in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed
@@ -572,6 +572,31 @@ def test_it_continues_with_what_is_missing(cube, found):
     after = {path.name: path.stat().st_mtime_ns for path in film.iterdir()}
     assert after == before
     assert again.comparison.to_csv() == found.comparison.to_csv()
+
+
+def test_numbers_are_found_once_and_anew_where_they_rest_on_something_else(
+    cube, found, tmp_path, monkeypatch
+):
+    asked, place = [], shutil.copytree(found.path, tmp_path / found.path.name)
+
+    def seen(run, folder):
+        asked.append(run.name)
+        return judged(run, folder)
+
+    monkeypatch.setattr("loadflow.running.comparison.judged", seen)
+    again = compare(scene_of(cube), out=tmp_path)
+    assert asked == []
+    plain_words = [json.dumps(one.comparison.as_dict()) for one in (again, found)]
+    assert plain_words[0] == plain_words[1]
+    damaged = place / "candidates" / "two-spherical" / "numbers.json"
+    whole = damaged.read_text(encoding="utf-8")
+    damaged.write_text(whole[:1000], encoding="utf-8")
+    compare(scene_of(cube), out=tmp_path)
+    assert asked == ["two-spherical"]
+    assert damaged.read_text(encoding="utf-8") == whole
+    bare = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0}
+    compare(scene_of(cube, as_built={**bare, "alignment": 0.0}), out=tmp_path)
+    assert sorted(asked[1:]) == ["double-row-tapered", "journal-cylindrical", "two-spherical"]
 
 
 class Links(HTMLParser):

@@ -21,9 +21,11 @@ from loadflow.running.comparison import Means, shared_loads
 from loadflow.running.designing import _left_out, chosen_candidate, design
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.design import Design
+from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.rolling_at_work import at_work
 from loadflow.studies.design_point import DesignPoint, judge_design
 from loadflow.studies.design_result import best_of, front_of
 from loadflow.studies.design_space import space_of, start_of
@@ -185,6 +187,31 @@ def test_with_loads_grown_by_the_margin_the_first_limit_is_reached(cube, series,
     above = 0.03 if candidate.rolling is None else 0.1
     assert 0.97 < after.load_factor < 1.0 + above
     assert before.numbers["energy"] > 0
+
+
+def test_a_design_is_as_warm_as_its_mean_friction_and_cooling_make_it(cube, series):
+    """A stated temperature of the same size gives the same life and losses."""
+    scene = scene_of(cube)
+    candidate = scene.candidates["two-spherical"]
+    spectrum = load_spectrum(scene, series, candidate.places, 4)
+    cooled = Friction(cooling={"N": Cooling(12.0), "N2": Cooling(area=4.0, transfer=20.0)})
+    found = judge_design(candidate, cooled, spectrum)
+    warm = {}
+    for place, part in candidate.rolling.bearings.items():
+        samples = spectrum[place].to_dataset()
+        samples = samples.isel(sample=np.flatnonzero(samples["weight"].values > 0))
+        values = (samples[n].transpose("sample", ...).values
+                  for n in ("force", "moment", "speed", "weight"))  # fmt: skip
+        warm[place] = Cooling(temperature=at_work(part, cooled, *values)[1])
+    assert all(one.temperature > 303.0 for one in warm.values())
+    stated = judge_design(candidate, Friction(cooling=warm), spectrum)
+    for name in ("energy", "modified_life"):
+        assert found.numbers[name] == pytest.approx(stated.numbers[name], rel=1e-9)
+    usual = judge_design(candidate, Friction(), spectrum)
+    assert found.numbers["modified_life"] != pytest.approx(usual.numbers["modified_life"], rel=0.05)
+    # heavier loads make its oil warmer
+    if stated.load_factor > 1:
+        assert found.load_factor <= stated.load_factor
 
 
 def test_the_search_finds_what_a_fine_scan_finds(cube, series, found):

@@ -6,6 +6,7 @@ from itertools import chain
 import numpy as np
 import pytest
 
+from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     ConicalBearing,
@@ -334,3 +335,12 @@ def test_bad_series_are_refused_by_name():
         CONE.orbit([0.0, 1.0, 1.0], (1e5, 0.0, -1e6), 10.0, FILM)
     with pytest.raises(InputError, match="force"):
         CONE.orbit([0.0, 1.0, 2.0], np.ones((2, 3)), 10.0, FILM)
+
+
+@pytest.mark.parametrize("number", [10342, 10386])
+def test_pairs_far_from_their_first_position_are_found_in_few_steps(number):
+    """The first search ends at once where it leads nowhere; all films between the cones follow."""
+    rng = np.random.default_rng([SEEDS["pair"], number])
+    found = FAMILIES["pair"](draw_point(rng))()
+    assert found.converged
+    assert found.iterations < 250  # the first took 735, with 200 from each start

@@ -1,5 +1,7 @@
 """Starts and stops: where the film is thinner than the roughness there is contact, and no film."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -7,12 +9,15 @@ import xarray as xr
 from loadflow.errors import InputError
 from loadflow.journal import Groove, Lobes, Supply
 from loadflow.journal.transition import load_capacity
+from loadflow.readers.names import SITUATIONS, label_from_name
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import journal as stage
 from loadflow.stages.film_summary import extremes, mixed_friction
+from loadflow.stages.turning import runs_throughout
 from loadflow.studies.verdicts import verdicts
 from loadflow.wind import LOAD_CASES
+from loadflow.wind.cases import STARTS_IN_WORDS, stands_or_starts
 
 LOAD = 1e6
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -219,6 +224,14 @@ def test_a_smooth_film_that_starts_has_the_pressure_of_what_floats_and_one_with_
 def test_faults_end_in_a_stop_and_are_no_power_production_to_the_limits_of_a_film():
     produce = [dlc for dlc, row in LOAD_CASES.items() if not row.stands_or_starts]
     assert produce == ["1.1", "1.2", "1.3", "1.4", "1.5"]
+
+
+def test_a_start_that_the_name_of_a_file_says_in_a_word_is_no_power_production():
+    words = [label_from_name(Path(f"own_{word}_v12.outb")).dlc for word in SITUATIONS]
+    assert words == [*SITUATIONS]
+    assert {word for word in words if stands_or_starts(word)} == STARTS_IN_WORDS
+    table = xr.Dataset(coords={"dlc": ("case", ["1.1", "startup", "steady", "own"])})
+    assert runs_throughout(table).tolist() == [True, False, True, True]
 
 
 def test_a_brake_that_slips_by_some_degrees_in_strong_wind_holds_a_shaft_that_stands():

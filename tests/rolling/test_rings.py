@@ -341,8 +341,9 @@ def test_waves_around_the_ring_shift_the_contacts_as_the_basis_does(sectors):
     waves = modes.waves
     tracks = np.zeros((modes.size, waves.mixing.shape[1], DRIVE.balls))
     sign = np.where(np.arange(len(waves.trig)) < waves.cosines, 1.0, -1.0)[:, None]
-    mirrored = sign * waves.trig[:, DRIVE.balls - waves.trig.shape[1] : 0 : -1]
-    trig = np.concatenate([waves.trig, mirrored], axis=1)
+    half = waves.trig[:, : DRIVE.balls // 2 + 1]
+    mirrored = sign * half[:, DRIVE.balls - half.shape[1] : 0 : -1]
+    trig = np.concatenate([half, mirrored], axis=1)
     for owner, (first, last) in enumerate(zip(waves.first, waves.first[1:])):
         for wave, track, value in zip(
             waves.wave[first:last], waves.track[first:last], waves.value[first:last]

@@ -335,6 +335,13 @@ def test_a_killed_worker_costs_the_item_that_kills_it_and_no_other(caplog):
     assert "go on with 1 processes" in caplog.text
 
 
+def test_warnings_of_workers_are_words_without_a_line_of_code(capfd):
+    with executor(2, None) as where:
+        assert sorted(found for _, found in where.outcomes(workers.doubted, [1, 2])) == [1, 2]
+    told = [line for line in capfd.readouterr().err.splitlines() if line.strip()]
+    assert sorted(told) == ["warning: film 1 is thin", "warning: film 2 is thin"]
+
+
 def test_workers_that_never_live_end_the_run():
     with (
         executor(2, None) as where,

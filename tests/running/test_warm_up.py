@@ -176,6 +176,14 @@ def test_the_rotor_is_compiled_by_the_first_case_that_lacks_its_loads(
     assert read_whole(made).identical(read_whole(part_file(tmp_path / "again", "loads", case)))
 
 
+def test_loads_and_half_of_the_rotor_are_the_first_jobs(simulated, tmp_path, monkeypatch):
+    """Two processes compile the loop of the rotor at once, so that the first case is soon there."""
+    marks_go_to(tmp_path / "kernels", monkeypatch)
+    where = TwoWorkers()
+    compile_kernels(simulated, where, lambda *what: None, tmp_path / "run")
+    assert where.jobs == [("loads", ""), ("rotor", ""), ("other", "")]
+
+
 def test_early_parts_are_taken_if_the_plan_has_their_settings(simulated, tmp_path):
     first, (one, two) = simulated.steps[0], simulated.cases
     series = made_up_loads(simulated.scene, one)

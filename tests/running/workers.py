@@ -3,6 +3,7 @@
 import os
 import signal
 import time
+import warnings
 
 
 def doubled(item):
@@ -15,3 +16,9 @@ def doubled(item):
 
 def always_killed(item):
     os.kill(os.getpid(), signal.SIGKILL)
+
+
+def doubted(item):
+    """The item, with a warning that names it."""
+    warnings.warn(f"film {item} is thin", UserWarning, stacklevel=1)
+    return item

@@ -20,7 +20,7 @@ from loadflow.stages import shaft_in_films as shaft_in_films_stage
 from loadflow.stages.film_past import AT_REST
 from loadflow.stages.film_support import film_model
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.shaft_in_films import films_together
+from loadflow.stages.shaft_in_films import films_together, followed_together
 from loadflow.studies.compare_factor import at_place, grown
 from loadflow.turbines import load_turbine
 
@@ -154,9 +154,17 @@ def test_a_shaft_on_rigid_bearings_has_no_tilt_in_clearances():
     assert "clearance_tilt" not in at_place(scene, found, "N")
 
 
-def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved):
+LEMON = {"kind": "lobes", "count": 2, "preload": 0.5}
+
+
+@pytest.mark.parametrize("shape", ["cylindrical", "lemon"])
+def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved, shape):
     """Under the loads that the shaft stage tells, around the shaft as it tells it."""
     scene, loads, found = moved
+    if shape == "lemon":
+        bore = {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3, "shape": LEMON}
+        scene = scene_of(geometry=bore)
+        found = shaft.bearing_loads(scene, None, {"loads": loads})
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
     time, speed = loads["time"].values, loads["speed"].values
     for k, name in enumerate(("N", "N2")):
@@ -216,9 +224,10 @@ def test_films_of_the_run_are_those_that_tilt_the_shaft(moved):
         assert np.allclose(told[name]["tilt"].values, both.tilt[:, k])
 
 
-def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches():
+@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, LEMON])
+def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches(shape):
     """A slope beyond the clearance: surfaces touch at an end, the gap stays open."""
-    wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3}
+    wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3, "shape": shape}
     scene = scene_of(geometry=wide, lubricant={"viscosity": 0.03})
     loads = loads_of(swing=2.5)
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
@@ -245,6 +254,41 @@ def test_bores_that_are_turned_turn_the_shaft_in_its_films_as_much_less():
     for name in ("tilt", "moment"):
         off = np.abs(found[name] - rest[name]).max() / np.abs(rest[name]).max()
         assert off < 1e-2, name
+
+
+ROUGH = {
+    "friction": 0.15,
+    "asperities": {"roughness": 0.56e-6, "contact_modulus": 46.5e9, "factor": 1e-3},
+}
+GIVES = {"kind": "local", "compliance": 2.06e-12}
+
+
+def test_a_shaft_that_stands_rests_on_asperities_lifts_off_and_comes_to_a_stop():
+    """Each film alone, from its own rest around the shaft as it is told, goes the same way."""
+    scene, loads = scene_of(contact=ROUGH, shell=GIVES), loads_of(swing=0.1)
+    there_and_back = np.clip(2.7 - np.abs(np.linspace(-3.0, 3.0, STEPS)), 0.0, 1.0)
+    loads = loads.assign(speed=loads["speed"] * xr.DataArray(there_and_back, dims="time"))
+    found = shaft.bearing_loads(scene, None, {"loads": loads})
+    assert found["converged"].all()
+    both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+    for k, name in enumerate(("N", "N2")):
+        share, films = (both.paths[k][each].values for each in ("contact_share", "minimum_film"))
+        assert share[0] > 0.9
+        assert abs(share[STEPS // 2]) < 1e-6
+        assert films[0] < 1e-6 < 10e-6 < films[STEPS // 2]
+        options = scene.journal.at(name)
+        force, tilt, bend = (
+            to_film(found[each].sel(bearing=name).T.values.astype(float))
+            for each in ("force", "tilt", "curvature")
+        )
+        alone = options.geometry.orbit(
+            loads["time"].values, force, loads["speed"].values, options.film_model,
+            tilt=tilt, bend=bend, control=Control(tolerance=1e-8),
+        )  # fmt: skip
+        off = np.abs(alone["eccentricity"].values - both.position[:, k]).max(axis=1)
+        assert off.max() < 1e-3 * options.geometry.clearance
+        assert np.allclose(alone["minimum_film"].values, films, rtol=0.01, atol=5e-7)
+    assert not followed_together(scene_of(), scene.shaft.concepts[0], loads["speed"].values)
 
 
 def test_squeeze_holds_a_shaft_that_comes_to_a_stop():

@@ -43,6 +43,23 @@ class Bore:
         """Numbers of the segments that tilt."""
         return [number for number, part in enumerate(self.segments) if part.tilting]
 
+    def arcs(self) -> Array:
+        """Circles that the bore is made of, (s, 5), in clearances and rad.
+
+        Radius beyond that of the shaft; where a centred shaft is from the middle of the circle,
+        (2,); middle of the arc, and half of it. One circle all round where there are no segments.
+        """
+        if not self.segments:
+            return np.array([[1.0, 0.0, 0.0, 0.0, 2.0 * np.pi]])
+        found = []
+        for part in self.segments:
+            wide = 1.0 / (1.0 - part.preload)
+            away, toward = part.preload * wide, part.narrowest
+            shift = away * np.cos(toward), away * np.sin(toward)
+            half = 0.5 * (part.end - part.start)
+            found.append([wide, *shift, part.start + half, half])
+        return np.array(found)
+
     def gap(self, angle: Array, segment: NDArray[np.int64], z: Array) -> Array:
         """Gap of the centred shaft in clearances, (n, m).
 
@@ -68,14 +85,12 @@ class Bore:
         if not self.segments:
             return np.asarray(1.0 - np.hypot(*position.T))
         least = np.full(len(position), np.inf)
-        for part in self.segments:
-            shift = part.preload * np.array([np.cos(part.narrowest), np.sin(part.narrowest)])
-            x, y = (position + shift / (1.0 - part.preload)).T
-            # H = 1/(1 − m) − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
-            away = (np.arctan2(y, x) - part.start) % (2 * np.pi)
-            ends = [x * np.cos(end) + y * np.sin(end) for end in (part.start, part.end)]
-            reach = np.where(away <= part.end - part.start, np.hypot(x, y), np.maximum(*ends))
-            least = np.minimum(least, 1.0 / (1.0 - part.preload) - reach)
+        for wide, *shift, middle, half in self.arcs():
+            x, y = (position + np.array(shift)).T
+            # H = wide − |(x, y)| cos(θ − its angle): least there, or at an end of the segment
+            beside = (np.arctan2(y, x) - middle + np.pi) % (2 * np.pi) - np.pi
+            toward = middle + np.clip(beside, -half, half)
+            least = np.minimum(least, wide - x * np.cos(toward) - y * np.sin(toward))
         return least
 
 

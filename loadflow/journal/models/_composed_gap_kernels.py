@@ -16,6 +16,7 @@ from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._full_kernels import keep_full
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
+from loadflow.journal.models._shell_growth_kernels import give_way
 from loadflow.journal.models._small_systems import fill_upper
 from loadflow.numerics.lanes import LANES, put, take
 
@@ -55,6 +56,7 @@ def place(film, work, q):
             put(planes, here, h)
             put(faces, here, after)
     if give > 0.0:
+        give_way(film, work, planes, faces)
         _join(film, work)
     if film.rough.size > 0.0:
         _rough_gap(film, work)

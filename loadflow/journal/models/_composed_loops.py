@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.journal.cavitation import DLOAD, FILL, LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
@@ -43,6 +43,8 @@ from loadflow.journal.models._reduced_loops import (
     two_steps,
 )
 from loadflow.journal.models._ring_kernels import factorise, substitute
+from loadflow.journal.models._shell_growth_kernels import follow_by
+from loadflow.journal.models._shell_step_kernels import EXACT, NEAR, follow_shell
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import lay_at, leaves_room, longer_step
 from loadflow.journal.models._supply_kernels import (
@@ -238,6 +240,7 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
             work.kept[0], work.kept[1], fresh = 1.0, rate, True
             columns = answers_of_grooves(film, work, 1 + size)
         substitute(work.matrix, work.columns, columns)
+        follow_shell(film, work, wedge, rate, columns, NEAR)
         follow_grooves(film, work, wedge, rate, size, fresh)
         last = residual
         if size > 0:
@@ -258,13 +261,16 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     slopes_of_balance(film, work, wedge, 0.0, size)
     matrix(film, work, wedge, 0.0)
     factorise(work.matrix)
-    substitute(work.matrix, work.columns, answers_of_grooves(film, work, 1 + size))
+    columns = answers_of_grooves(film, work, 1 + size)
+    substitute(work.matrix, work.columns, columns)
+    follow_shell(film, work, wedge, 0.0, columns, EXACT)
     follow_grooves(film, work, wedge, 0.0, size, True)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
             stiffness[a, b] = work.touch[1 + a, b] - work.carried[1 + b, a]
     work.border.direct[:] = 0.0
+    follow_by(film, work, size)
     for i in range(nx):
         still = film.ring.groove[i] and not film.held.columns[i]  # a groove between segments
         squeeze = 0.0 if still else film.ring.slope * film.ring.width[i]
@@ -280,12 +286,11 @@ def _finish(film, work, q, speed, size, stiffness, damping):
             if film.held.on and film.held.grooves[i, k] >= 0:
                 displaced_by(film, work, i, k, held, modes, size)
                 held = 0.0
-            # an elastic shell follows: its gap changes by what the pressure of the place makes
-            grown = film.give * work.state[DLOAD, i, k]
             work.columns[0, i, k] = 0.0
-            for a in range(size):
-                work.columns[1 + a, i, k] = held * (modes[a] + grown * work.columns[1 + a, i, k])
+            for a in range(size):  # an elastic shell follows
+                work.columns[1 + a, i, k] = held * (modes[a] + work.columns[1 + a, i, k])
     substitute(work.matrix, work.columns, 1 + size)
+    follow_shell(film, work, wedge, 0.0, 1 + size, EXACT)
     follow_grooves(film, work, wedge, 0.0, size, True)
     carry(film, work, size)
     for a in range(size):

@@ -25,6 +25,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     smooth_beyond,
 )
 from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._shell_growth_kernels import largest_growth
 from loadflow.numerics.lanes import LANES, larger, put, spread, take
 
 
@@ -108,7 +109,8 @@ def summarise(film, work, q, wedge, rate, row):
     row[film_.OUTFLOW] = _outflow(film, work, wedge, rate)
     row[film_.FILLED] = liquid / volume
     row[film_.LEAST] = narrowest(film, work)
-    row[film_.GROWTH] = max(grown, film.give * (peak - ring.p_edge))
+    grown = max(grown, film.give * (peak - ring.p_edge))
+    row[film_.GROWTH] = max(grown, largest_growth(film, work))
     row[film_.NORMAL] = work.normal[0]
     row[film_.MOMENT_X] = work.load[2] + work.touch[0, 2]
     row[film_.MOMENT_Y] = work.load[3] + work.touch[0, 3]

@@ -19,7 +19,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     has_gap,
     narrowest,
     place,
-    push,
     share_of_step,
     touch,
     turn,
@@ -38,15 +37,16 @@ from loadflow.journal.models._integral_kernels import summarise
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
-from loadflow.journal.models._small_systems import fill_upper, solve_system
+from loadflow.journal.models._shell_step_kernels import NEAR, follow_shell
+from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
+from loadflow.journal.models._stop_kernels import stop
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models.composed_film import Composed, ComposedWork
 from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
 from loadflow.numerics.references import refer
 
 Array = NDArray[np.float64]
-
 
 COORDINATES = 4
 SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films; then those of seats
@@ -74,6 +74,8 @@ class Side(NamedTuple):
     stop : array (2,)
         Gap at a bearing end, clearances, below which surfaces touch, and the load there, N, at
         which it would close; no load: they do not.
+    arcs : array (s, 5)
+        Arcs of the bore that they touch, as `Bore.arcs`.
     place, new : array (4,)
         At the last time, and at the next.
     past : array (8,)
@@ -96,6 +98,7 @@ class Side(NamedTuple):
     given: Array
     bend: Array
     stop: Array
+    arcs: Array
     place: Array
     new: Array
     past: Array
@@ -160,24 +163,6 @@ def _move(side, step, share):
 
 
 @once
-def _stop(side):
-    """Add what holds the shaft where it touches a bearing end to `touch` of smooth surfaces."""
-    film, work, gap = side.film, side.work, side.stop[0]
-    load, stiffness = work.touch[0], work.touch[1:]
-    points = film.nodes.z.size
-    for end in range(points - film.nodes.ends.size, points):
-        z, ex, ey = film.nodes.z[end], work.centre[0, end], work.centre[1, end]
-        ratio = np.hypot(ex, ey)
-        overlap = gap - (1.0 + film.places.depth[end] - ratio)
-        if not overlap > 0.0:
-            continue
-        force = side.stop[1] * (overlap / gap) ** 2
-        along, aside = 2.0 * side.stop[1] * overlap / (gap * gap), force / ratio
-        push(load, stiffness, z, ex / ratio, ey / ratio, force, along, aside)
-    fill_upper(stiffness)
-
-
-@once
 def _residual(one, other, shared, speed, rate, scale):
     """Largest residual of both films and of what is missing, which is taken off `missing`."""
     residual = 0.0
@@ -190,7 +175,7 @@ def _residual(one, other, shared, speed, rate, scale):
         residual = max(residual, unfed(film, work))
         touch(film, work, side.new)
         if side.stop[1] > 0.0:
-            _stop(side)
+            stop(side)
         if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
             return np.inf
         if film.give > 0.0 and not has_gap(film, work):
@@ -225,6 +210,7 @@ def _solve(one, other, shared, speed, rate, fresh):
             work.kept[0], work.kept[1], columns = 1.0, side.thin[0] * rate, 1 + size
             columns = answers_of_grooves(film, work, columns)
         substitute(work.matrix, work.columns, columns)
+        follow_shell(film, work, wedge, side.thin[0] * rate, columns, NEAR)
         follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
         carry(film, work, size)
         for c in range(SHAFT):
@@ -305,6 +291,12 @@ def _advance(one, other, shared):
         share *= 0.5
 
 
+@inner
+def _is_open(side):
+    """Whether a shaped bore does not close between two places of the cells."""
+    return not side.film.ring.shaped or has_gap(side.film, side.work)
+
+
 @once
 def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
     """Films and shaft that carry the load between two times; residual, steps, whether it is small.
@@ -332,7 +324,7 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
         hold(shared, SHAFT, n, to)
         residual = _residual(one, other, shared, speed, rate, scale)
         if residual < tolerance:
-            return residual, spent, True
+            return residual, spent, _is_open(one) and _is_open(other)
         if spent == max_iterations or not residual < np.inf:
             return residual, spent, False
         kept = one.work.kept[0] > 0.0 and other.work.kept[0] > 0.0

@@ -78,6 +78,8 @@ def finer_around(options: Film, control: Limits) -> int | None:
         return None
     if options.shell is None and options.contact is None:
         return None
+    if options.shell is not None and not options.shell.any_grid:
+        return None
     most = _MOST_RIGID if options.shell is None else _MOST_AROUND
     return most if options.cells[0] < most else None
 

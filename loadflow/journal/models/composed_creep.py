@@ -143,7 +143,9 @@ class Creep:
 
     def _gives(self, model: ComposedFilm, share: float) -> None:
         """Solve films in a shell that gives way by a share of what it does."""
-        self.model = replace(model, film=model.film._replace(give=share * model.film.give))
+        film, modes = model.film, model.film.modes
+        softer = modes._replace(pressed=share * modes.pressed) if modes.on else modes
+        self.model = replace(model, film=film._replace(give=share * film.give, modes=softer))
 
     def from_standing(self, speed: float) -> Array | None:
         """The same from the shaft that stands on its asperities."""

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
+from loadflow.journal.models.composed_modes import Modes, ModesWork, make_modes_work
 from loadflow.journal.models.composed_supply import Border, Feeding, Held, make_border
 from loadflow.journal.models.composed_uneven import Uneven
 from loadflow.journal.models.ring import Ring
@@ -220,7 +221,9 @@ class Composed(NamedTuple):
     lanes : Lanes
         The points as rows of lanes.
     give : float
-        Growth of the gap over pressure, clearances per Pa; 0: a rigid shell.
+        Growth of the gap over the pressure of its place, clearances per Pa; 0: a rigid shell.
+    modes : Modes
+        What a shell gives all over.
     rough : Rough
         Asperities.
     yielding : Yielding
@@ -240,6 +243,7 @@ class Composed(NamedTuple):
     places: Places
     lanes: Lanes
     give: float
+    modes: Modes
     rough: Rough
     yielding: Yielding
     regime: Regime
@@ -249,7 +253,9 @@ class Composed(NamedTuple):
 
 
 class SmoothFilm(Composed):
-    """One of smooth surfaces, of laminar flow, without a supply: loops leave the rest out."""
+    """One of smooth surfaces, of laminar flow, in a shell that at most gives way locally, without a
+    supply: loops leave the rest out.
+    """
 
 
 class ComposedWork(NamedTuple):
@@ -317,6 +323,8 @@ class ComposedWork(NamedTuple):
         Those whose pressure is unknown.
     sheared : array (nx, L)
         Shear of the points at the film's one viscosity, where `Uneven.on`.
+    modes : ModesWork
+        Of a shell that gives way all over.
     """
 
     u: Array
@@ -349,9 +357,12 @@ class ComposedWork(NamedTuple):
     fed: Array
     border: Border
     sheared: Array
+    modes: ModesWork
 
 
-def make_work(around: int, nodes: Nodes, places: int, feeding: Feeding) -> ComposedWork:
+def make_work(
+    around: int, nodes: Nodes, places: int, feeding: Feeding, modes: Modes
+) -> ComposedWork:
     """Allocate the work arrays."""
     points, inner = nodes.slopes.shape
     shape, free = (around, lanes_for(points)), feeding.first.size
@@ -386,4 +397,5 @@ def make_work(around: int, nodes: Nodes, places: int, feeding: Feeding) -> Compo
         fed=np.zeros(feeding.slots.size),
         border=make_border(free),
         sheared=np.zeros(shape),
+        modes=make_modes_work(modes, shape),
     )

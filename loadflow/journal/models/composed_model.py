@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +34,7 @@ from loadflow.journal.models.composed_film import (
     lanes_of,
     make_work,
 )
+from loadflow.journal.models.composed_shell import shell_of
 from loadflow.journal.models.composed_supply import (
     feeding_of,
     held_points,
@@ -52,7 +53,6 @@ from loadflow.journal.models.width_modes import (
     whole_width,
 )
 from loadflow.journal.rows import without_supply
-from loadflow.journal.shells import LinedShell, LocalShell
 from loadflow.journal.solvers.estimate import SHARES
 from loadflow.journal.solvers.load_stepping import TOUCHING
 
@@ -98,7 +98,7 @@ class ComposedFilm:
     @property
     def whole(self) -> bool:
         """Whether the whole width is solved."""
-        return not self.line.straight
+        return _whole(self.options, self.line)
 
     @property
     def size(self) -> int:
@@ -203,8 +203,15 @@ class ComposedFilm:
     def surely_thin(self, place: Array, force: Array) -> bool:
         """Whether they surely do not, by a first position (4,) and what the shell gives there."""
         specific = float(np.hypot(*force)) / (self.bearing.width * self.bearing.diameter)
-        gap = 1.0 - float(np.hypot(*place[:2])) + self.film.give * specific
+        gap = 1.0 - float(np.hypot(*place[:2])) + self._softness * specific
         return not self.resolves_gap(_THINNER * gap)
+
+    @property
+    def _softness(self) -> float:
+        """Largest growth of the gap over an even pressure, clearances per Pa."""
+        modes = self.film.modes
+        spread = np.einsum("kxl,k->xl", modes.shapes, modes.pressed.sum(axis=(1, 2)))
+        return self.film.give + float(spread.max())
 
     def touches(self, position: Array) -> bool:
         """Whether a rigid bore and a smooth shaft of given line touch at a position (4,)."""
@@ -320,7 +327,7 @@ def build(
     """
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
-    whole = not line.straight
+    whole = _whole(options, line)
 
     def layout(number: int, few: int | None) -> Nodes:
         beside = nodes_beside(options.supply, bearing, whole, number, few)
@@ -338,7 +345,7 @@ def build(
     feeding = feeding_of(units, held, 0.5 if whole else 1.0)
     ring = ring._replace(groove=ring.groove | held.columns)
     places = _places(bearing, nodes.z, half, whole)
-    give, uneven = _give(bearing, options), EVEN
+    (give, modes), uneven = shell_of(bearing, options, ring, nodes, whole), EVEN
     grows = viscosity is not None and viscosity.growth is not None
     yielding = yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring, grows)
     if viscosity is not None:
@@ -346,12 +353,13 @@ def build(
         places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
         yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
     effects = options.contact, options.turbulence, options.supply
-    film = (SmoothFilm if effects == (None, None, None) else Composed)(
-        ring, nodes, places, lanes_of(nodes, places.depth), give,
+    smooth = effects == (None, None, None) and not modes.on
+    film = (SmoothFilm if smooth else Composed)(
+        ring, nodes, places, lanes_of(nodes, places.depth), give, modes,
         rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
         feeding, uneven,
     )  # fmt: skip
-    work = make_work(ring.width.size, nodes, places.z.size, feeding)
+    work = make_work(ring.width.size, nodes, places.z.size, feeding, modes)
     return ComposedFilm(bearing, options, line, units, film, work)
 
 
@@ -423,14 +431,9 @@ def rubs(rows: Array, force: Array) -> NDArray[np.bool_]:
     return np.asarray(contact_share(rows[:, [at.CONTACT_X, at.CONTACT_Y]], force) > _RUBS)
 
 
-def _give(bearing: JournalGeometry, options: Film) -> float:
-    """Growth of the gap over pressure, clearances per Pa."""
-    shell = options.shell
-    if shell is None:
-        return 0.0
-    local = cast("LocalShell | LinedShell", shell)  # others are refused by name
-    local.check_local(bearing.width)
-    return local.compliance / bearing.clearance
+def _whole(options: Film, line: Line) -> bool:
+    """Whether both halves of the width differ."""
+    return not (line.straight and (options.shell is None or options.shell.symmetric))
 
 
 def _regime(bearing: JournalGeometry, options: Film) -> Regime:

@@ -293,6 +293,8 @@ def _cells(held: Held, shown: ComposedFilm, line: Array, control: Limits) -> dic
     points = film.nodes.slopes.shape[1]
     pressure, fill = work.state[LOAD, :, :points], work.state[FILL, :, :points]
     grown = film.give * (pressure - film.ring.p_edge)
+    if film.modes.on:
+        grown += work.modes.growth[:, :points]
     if film.yielding.on and film.give > 0.0:
         grown += _lifted(shown, work.gap[PLANES, :, :points])
     gap = work.gap[MEAN, :, :points]

@@ -140,7 +140,7 @@ def feeding_of(units: DiscreteFilm, held: Held, share: float) -> Feeding:
         slots=slots,
         samples=np.stack([first // across, first % across], axis=1),
         first=first[free],
-        points=np.argwhere(np.isin(grooves, free)).astype(np.int64),
+        points=np.argwhere(np.isin(grooves, free)).astype(np.int64, order="C"),
         keeps_full=bool(units.law.moves_by_cells and free.size),
         unit=share * pockets.flow_unit,
     )

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -52,6 +53,7 @@ _HOLDS = 4.0  # times the largest load, at which a gap at a bearing end would be
 _SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)  # of the way out of the middle
 _ROOM = 0.1  # gap, clearances, that the first place leaves at bearing ends
 _STICKS = 1e-3  # share of the clearance that a seat gives way by at a bearing end before it slides
+_RESTED = 40  # steps that double, from that of a series to a thousand years
 _NOW = np.zeros(1)
 
 
@@ -131,6 +133,7 @@ def follow_shared(
     lying: Lying,
     control: Limits,
     temperature: Sequence[float] = (0.0, 0.0),
+    rests: bool = False,
 ) -> SharedPath:
     """Follow a shaft in two films.
 
@@ -146,6 +149,9 @@ def follow_shared(
         How hard each step is solved.
     temperature : sequence of float
         Of both films at the first time, K, where they store heat.
+    rests : bool
+        Whether both have come to rest under the first loads, at the first speed; else the shaft
+        lies there as near its loads as it can. One that stands rests on asperities.
 
     Raises
     ------
@@ -154,6 +160,8 @@ def follow_shared(
     """
     march = _March(bearings, options, time, speed, lying, control, temperature)
     march.begins()
+    if rests:
+        march.rests()
     done, samples, levels = 1, STRETCH, [LEVELS[0]] * 2
     while done < time.size:
         end = min(done + samples, time.size)
@@ -252,6 +260,37 @@ class _March:
             _held(side, model, self.lying.force[:1, k], self.speed[:1], self.control)
             side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
         self.shared.before[:] = self.shared.at
+
+    def rests(self) -> None:
+        """Let both films come to rest under the first loads.
+
+        They are followed under these in steps that double, until nothing is squeezed out any more,
+        at the temperature of the first time.
+        """
+
+        def first(rows: Array) -> Array:
+            return rows[:1].repeat(_RESTED, axis=0)
+
+        sides = [
+            side._replace(
+                given=first(side.given), bend=first(side.bend), states=first(side.states),
+                rows=first(side.rows), warmth=side.warmth._replace(on=False),
+            )
+            for side in self.sides
+        ]  # fmt: skip
+        shared = self.shared
+        still = shared._replace(load=first(shared.load), slip=first(shared.slip))
+        step = self.time[1] - self.time[0] if self.time.size > 1 else 1.0
+        time, speed = step * (2.0 ** np.arange(_RESTED) - 1.0), first(self.speed)
+        done = follow(
+            *sides, still, 1, time, speed, self.control.tolerance, self.control.max_iterations
+        )
+        if done < _RESTED:
+            k = int(np.argmin([side.rows[done - 1, at.LEAST] for side in sides]))
+            given = self.lying.force[0, k], self.speed[0], float(np.hypot(*sides[k].place[:2]))
+            raise no_start(*given, (float(shared.told[0]), 0.0, int(shared.told[1])))
+        for side, rested in zip(self.sides, sides):
+            side.rows[0] = rested.rows[-1]
 
     def _follows(self, k: int) -> None:
         """Turn the shell of a film with the shaft, at the first time: elastic, or slid so far."""
@@ -371,7 +410,7 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
     felt[[2, 3], [own, own + 1]] = 1.0
     film, contact = model.film, model.options.contact
     load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
-    if film.rough.size > 0.0 or film.give > 0.0 or film.ring.shaped:
+    if film.rough.size > 0.0 or film.give > 0.0:
         load = 0.0
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
@@ -379,6 +418,7 @@ def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature
         film=film, work=model.work, lies=lies, slipped=np.zeros(4), felt=felt, given=given,
         bend=np.array(model.lines(count)[:, 2:]),
         stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
+        arcs=Bore.of(model.bearing).arcs(),
         place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
         thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
     )  # fmt: skip
@@ -389,7 +429,8 @@ def _give(bearing: JournalGeometry, stiffness: float, slip: Array) -> float:
     most = float(slip.max())
     if np.isfinite(stiffness) or np.isinf(most):
         return 1.0 / stiffness
-    return _STICKS * 2.0 * bearing.clearance / bearing.width / most
+    # one that has no load at all holds nothing
+    return _STICKS * 2.0 * bearing.clearance / bearing.width / max(most, 1.0)
 
 
 def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:

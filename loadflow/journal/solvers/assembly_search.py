@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from itertools import chain, product
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +26,8 @@ from loadflow.numerics.convergence import Limits
 Array = NDArray[np.float64]
 
 _HELD = np.array([], dtype=np.int64)
-_STEPS, _EACH = 60, 200  # films of a search from one start, and Newton steps of them
-_SPENT = 1500  # Newton steps from all starts
+_STEPS = 60  # films of a search from one start
+_SPENT = 1000  # Newton steps from all starts
 _LARGEST = 0.7  # change of an eccentricity over the gap, or of the gap's logarithm, in a step
 _HALVINGS = 12
 _RATIOS, _TURNS, _BEST = (0.4, 0.8), 10, 8  # films all around, and those from which it begins
@@ -220,6 +220,7 @@ def search(
     force: Array,
     free: NDArray[np.int64],
     limits: Limits,
+    rounds: tuple[int, ...] = (200,),
 ) -> AssemblyState:
     """Equilibrium under `force` (5,), N and N m, or where the search ended.
 
@@ -237,14 +238,21 @@ def search(
         The three shifts, or with them both tilts.
     limits : Limits
         Tolerance on the scaled residual.
+    rounds : tuple of int
+        Newton steps from each start, round by round: those that have not yet ended go on in the
+        next one, the nearest to the load first.
     """
-    spent, each = 0, iter(starts)
-    found = next(each)
-    for start in chain([found], each):
-        found = _search_from(assembly, chart, start, force, free, limits)
-        spent += found.iterations
-        if found.converged or spent > _SPENT:
-            break
+    spent = 0
+    for most in rounds:
+        short: list[AssemblyState] = []
+        for start in starts:
+            found = _search_from(assembly, chart, start, force, free, limits, most)
+            spent += found.iterations
+            if found.converged or spent > _SPENT:
+                return replace(found, iterations=spent)
+            if found.iterations > most:
+                short.append(found)
+        starts = sorted(short, key=lambda each: each.residual)
     return replace(found, iterations=spent)
 
 
@@ -255,8 +263,9 @@ def _search_from(
     force: Array,
     free: NDArray[np.int64],
     limits: Limits,
+    most: int,
 ) -> AssemblyState:
-    """Equilibrium from one of the starts."""
+    """Equilibrium from one of the starts, in no more than `most` Newton steps but those begun."""
     x = chart.place(start.position)
     state = _film_at(assembly, replace(start, position=chart.position(x)), limits)
     spent, polished = state.iterations, math.inf
@@ -276,7 +285,7 @@ def _search_from(
         if residual < limits.tolerance:
             done = replace(state, converged=True, residual=residual, iterations=spent, free=free)
             return done
-        if spent > _EACH:
+        if spent > most:
             break
         slope = change @ chart.slope(x)
         if not np.isfinite(slope).all():

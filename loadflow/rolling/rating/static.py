@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.verdict import Verdict
+
+if TYPE_CHECKING:
+    from loadflow.rolling.bearings.base import RollingBearing
 
 Array = NDArray[np.float64]
 
@@ -40,6 +44,44 @@ def static_load(radial: ArrayLike, axial: ArrayLike, x0: float, y0: float) -> Ar
     """Static equivalent load P₀ = X₀ F_r + Y₀ F_a, at least F_r, N, (2.7)."""
     r, a = np.abs(radial), np.abs(axial)
     return np.asarray(np.maximum(x0 * r + y0 * a, r))
+
+
+def static_overload(
+    bearing: RollingBearing, radial: ArrayLike, axial: ArrayLike, moment: ArrayLike
+) -> Array:
+    """Static equivalent load over the static capacity of a bearing: above 1 it is overloaded.
+
+    With the factors of ISO 76: of radial bearings P₀ = F_r at least, and the more of rollers that
+    lean; of thrust bearings as `static_load_slewing`. Which row or roller carries most is left to
+    `RollingEquilibrium.static_safety`.
+
+    Parameters
+    ----------
+    bearing : RollingBearing
+        Of any kind.
+    radial, axial : array_like
+        Forces, N.
+    moment : array_like
+        Tilting moment, N m.
+
+    Examples
+    --------
+    >>> from loadflow.rolling import RollerBearing
+    >>> bearing = RollerBearing(rollers=14, roller_diameter=11e-3, roller_length=11e-3,
+    ...     pitch_diameter=60.5e-3)
+    >>> float(static_overload(bearing, 2 * bearing.static_capacity, 0.0, 0.0))
+    2.0
+    """
+    angle = float(getattr(bearing, "nominal_angle", 0.0))
+    if bearing.kind in ("ball", "roller", "spherical"):
+        rows = getattr(bearing, "rows", 1)
+        y0 = 0.22 * rows / math.tan(angle) if angle else 0.0
+        load = static_load(radial, axial, 0.5 * rows, y0)
+    else:
+        size = bearing.pitch_diameter
+        lean = angle if bearing.kind == "slewing" else 0.0
+        load = static_load_slewing(radial, axial, moment, contact_angle=lean, pitch_diameter=size)
+    return np.asarray(load / bearing.static_capacity)
 
 
 def verdicts(

@@ -16,7 +16,8 @@ import math
 import numpy as np
 from numba import njit
 
-from loadflow.numerics.linked import LINKED, bare
+from loadflow.numerics.lanes import LANES, put, spread, take
+from loadflow.numerics.linked import LINKED, bare, contracted
 from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
 from loadflow.rolling.rings._line_kernels import line_contacts
@@ -56,57 +57,64 @@ def largest_product(a, b):
     return most
 
 
-@bare(forceinline=True, fastmath=_REORDER, **LINKED)
-def _spread(amount, trig, cosines, odd, shift):
+@contracted(**LINKED)
+def _weigh(weights, begin, end, table, first, last, sums):
+    """Fill columns first … last of `sums` by lines of `table`, weighted by each line of `weights`.
+
+    Lines and weights are those from `begin` to `end`; all four are multiples of `LANES`. Two lines
+    of `weights` at a time, so that one look at the table serves both.
+    """
+    wide, long, to = table.shape[1], weights.shape[1], sums.shape[1]
+    flat, one = weights.reshape(weights.size), np.uint64(1)  # not looked at twice
+    for at in range(first, last, LANES):
+        for s in range(0, weights.shape[0], 2):
+            other = min(s + 1, weights.shape[0] - 1)
+            a, b, c, d = spread(0.0), spread(0.0), spread(0.0), spread(0.0)
+            for t in range(begin, end, 2):
+                i, j, here = np.uint64(s * long + t), np.uint64(other * long + t), t * wide + at
+                row, next_row = take(table, here), take(table, here + wide)
+                a, b = a + flat[i] * row, b + flat[i + one] * next_row
+                c, d = c + flat[j] * row, d + flat[j + one] * next_row
+            put(sums, s * to + at, a + b)
+            put(sums, other * to + at, c + d)
+
+
+@bare(**LINKED)
+def _spread(amount, waves, even, odd, shift):
     """Fill the `shift` (track, ball) by the `amount` (track, wave) of each wave.
 
-    Four waves at a time: cosines and sines over half of the ring, whose sum and difference are
-    both halves. `odd` is room for one of them.
+    Cosines and sines over half of the ring, whose sum and difference are both halves; `even` and
+    `odd` are room for them.
     """
-    half, balls = trig.shape[1], shift.shape[1]
+    trig, cosines, balls = waves.trig, waves.cosines, waves.balls
+    half = balls // 2 + 1
+    _weigh(amount, 0, cosines, trig, 0, trig.shape[1], even)
+    _weigh(amount, cosines, trig.shape[0], trig, 0, trig.shape[1], odd)
     for s in range(shift.shape[0]):
-        line, size = shift[s], amount[s]
-        line[:half] = 0.0
-        odd[:] = 0.0
-        for t in range(0, cosines, 4):
-            a, b, c, d = size[t], size[t + 1], size[t + 2], size[t + 3]
-            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
-            for j in range(half):
-                line[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
-        for t in range(cosines, trig.shape[0], 4):
-            a, b, c, d = size[t], size[t + 1], size[t + 2], size[t + 3]
-            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
-            for j in range(half):
-                odd[j] += a * ta[j] + b * tb[j] + c * tc[j] + d * td[j]
+        line, one, two = shift[s], even[s], odd[s]
+        for j in range(half):
+            line[j] = one[j] + two[j]
         for j in range(1, balls - half + 1):
-            line[balls - j] = line[j] - odd[j]
-            line[j] += odd[j]
+            line[balls - j] = one[j] - two[j]
 
 
-@bare(forceinline=True, fastmath=_REORDER, **LINKED)
-def gather(values, trig, cosines, even, odd, amount):
+@bare(**LINKED)
+def gather(values, turned, cosines, even, odd, amount):
     """Fill the `amount` (line, wave) with sums of `values` (line, ball) times each wave.
 
-    `even` and `odd` are room for half a ring each.
+    `turned` holds the waves by balls, `even` and `odd` (line, half) are room.
     """
-    half, balls = trig.shape[1], values.shape[1]
+    balls = values.shape[1]
+    half = balls // 2 + 1
     for s in range(values.shape[0]):
-        line, size = values[s], amount[s]
+        line, one, two = values[s], even[s], odd[s]
         for j in range(half):
-            even[j], odd[j] = line[j], 0.0
+            one[j], two[j] = line[j], 0.0
         for j in range(1, balls - half + 1):
-            even[j] = line[j] + line[balls - j]
-            odd[j] = line[j] - line[balls - j]
-        for t in range(0, trig.shape[0], 4):
-            folded = even if t < cosines else odd
-            ta, tb, tc, td = trig[t], trig[t + 1], trig[t + 2], trig[t + 3]
-            a = b = c = d = 0.0
-            for j in range(half):
-                a += folded[j] * ta[j]
-                b += folded[j] * tb[j]
-                c += folded[j] * tc[j]
-                d += folded[j] * td[j]
-            size[t], size[t + 1], size[t + 2], size[t + 3] = a, b, c, d
+            one[j] = line[j] + line[balls - j]
+            two[j] = line[j] - line[balls - j]
+    _weigh(even, 0, turned.shape[0], turned, 0, cosines, amount)
+    _weigh(odd, 0, turned.shape[0], turned, cosines, turned.shape[1], amount)
 
 
 @bare(forceinline=True, fastmath=_REORDER, **LINKED)
@@ -136,7 +144,7 @@ def _gather_push(push, waves, room, pull):
         for f in range(lumped.shape[0]):
             if mixing[s, f] != 0.0:
                 add_multiple(mixing[s, f], push[s], lumped[f])
-    gather(lumped, waves.trig, waves.cosines, room.even, room.odd, amount)
+    gather(lumped, waves.turned, waves.cosines, room.even, room.odd, amount)
     line, place = room.line, waves.place
     for a in range(pull.shape[0]):
         total = 0.0
@@ -191,12 +199,11 @@ def _contacts(shift, table, local, push, slope, across):
 def shift_of(x, waves, room, shift):
     """Fill the `shift` (track, ball) by the unknowns."""
     amount, line = room.amount, room.line
-    first, place, value = waves.first, waves.place, waves.value
+    owner, place, value = waves.owner, waves.place, waves.value
     line[:] = 0.0
-    for a in range(x.shape[0]):
-        for e in range(first[a], first[a + 1]):
-            line[place[e]] += x[a] * value[e]
-    _spread(amount, waves.trig, waves.cosines, room.odd, shift)
+    for e in range(value.shape[0]):
+        line[place[e]] += x[owner[e]] * value[e]
+    _spread(amount, waves, room.even, room.odd, shift)
 
 
 @bare(**LINKED)

@@ -14,6 +14,7 @@ from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
 from loadflow.rolling.contacts import POINT
+from loadflow.rolling.rings._ring_factor import backward, forward
 from loadflow.rolling.rings._ring_kernels import (
     dot,
     evaluate,
@@ -22,8 +23,8 @@ from loadflow.rolling.rings._ring_kernels import (
     mix,
     shift_of,
 )
-from loadflow.rolling.rings._ring_rooms import newton_room, tangent_room, wave_room
-from loadflow.rolling.rings._ring_tangent import backward, condense, forward
+from loadflow.rolling.rings._ring_rooms import newton_room, square_room, tangent_room, wave_room
+from loadflow.rolling.rings._ring_tangent import condense
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
 _PATIENCE_POINTS, _PATIENCE_LINES = 8.0, 4.0
@@ -80,19 +81,18 @@ def _free_lines(basis, slope, across, slant):
 
 
 @bare(**LINKED)
-def _direction(rest, factor, condensed, cap, small, rhs, step):
+def _direction(rest, order, factor, condensed, cap, small, rhs, column, step):
     """Fill `step` by Newton's, with a Levenberg shift where the rigid part is singular.
 
     Returns the largest diagonal term and the smallest pivot of the rigid part.
     """
-    modes = step[5:]
+    count = step.shape[0] - 5
     largest = norm = 0.0
-    count = modes.shape[0]
-    for b in range(count):
-        modes[b] = rest[5 + b]
-    forward(factor, modes)
+    for b in range(order.shape[0]):
+        column[b] = rest[order[b]]
+    forward(factor, count, column)
     for a in range(5):
-        rhs[a] = rest[a] - dot(factor[count + a], modes)
+        rhs[a] = column[count + a]
         largest = max(largest, condensed[a, a])
         norm += rhs[a] * rhs[a]
     regular, shift = 0.0, 0.0
@@ -105,18 +105,21 @@ def _direction(rest, factor, condensed, cap, small, rhs, step):
         for a in range(5):
             step[a] = rhs[a] * cap / math.sqrt(max(norm, 1e-300))
     for a in range(5):
-        for b in range(count):
-            modes[b] -= factor[count + a, b] * step[a]
-    backward(factor, modes)
+        column[count + a] = step[a]
+    backward(factor, count, column)
+    for b in range(count):
+        step[order[b]] = column[b]
     return largest, pivot
 
 
 @bare(**LINKED)
-def _secant(rest, factor, condensed, cap, small, moves, changes, held, rhs, part, right, step):
+def _secant(
+    rest, order, factor, condensed, cap, small, moves, changes, held, rhs, column, part, right, step
+):
     """Fill `step` by the kept tangent, put right by the last `held` steps (limited-memory BFGS).
 
-    `moves` and the `changes` of force along them (pair, unknown), the oldest first; `rhs`, `part`
-    and `right` are room.
+    `moves` and the `changes` of force along them (pair, unknown), the oldest first; `rhs`,
+    `column`, `part` and `right` are room.
     """
     for a in range(rest.shape[0]):
         right[a] = rest[a]
@@ -124,7 +127,7 @@ def _secant(rest, factor, condensed, cap, small, moves, changes, held, rhs, part
         part[p] = dot(moves[p], right) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
             right[a] -= part[p] * changes[p, a]
-    _direction(right, factor, condensed, cap, small, rhs, step)
+    _direction(right, order, factor, condensed, cap, small, rhs, column, step)
     for p in range(held):
         more = part[p] - dot(changes[p], step) / dot(moves[p], changes[p])
         for a in range(right.shape[0]):
@@ -158,8 +161,8 @@ def _newton(
     """
     size = x.shape[0]
     room, space = rooms[0], rooms[1]
-    small, rhs, one, pull, rest, right, step, trial, part = rooms[2][:9]
-    shift, far, between, push, full, slope, across, slant = rooms[2][9:]
+    small, rhs, one, pull, rest, right, step, trial, column, part = rooms[2][:10]
+    shift, far, between, push, full, slope, across, slant = rooms[2][10:]
     for a in range(size):
         trial[a] = x[a]
     shift_of(x, waves, room, between)
@@ -214,7 +217,10 @@ def _newton(
         if exact:
             condense(waves, law.power, push, slope, across, slant, space, factor, condensed)
             known, held = True, 0
-        _secant(rest, factor, condensed, cap, small, moves, changes, held, rhs, part, right, step)
+        _secant(
+            rest, waves.order, factor, condensed, cap, small, moves, changes, held, rhs, column,
+            part, right, step,
+        )  # fmt: skip
         iterations += 1
         shift_of(step, waves, room, far)
         longest = _longest(far, waves.mixing, 0.0 if exact else cap, room.line, full)
@@ -227,7 +233,9 @@ def _newton(
     if residual > tolerance:
         forces(x, shift, waves, law, room, full, push, slope, across, slant, pull)
         condense(waves, law.power, push, slope, across, slant, space, factor, condensed)
-        stiffest, _ = _direction(rest, factor, condensed, cap, small, rhs, step)
+        stiffest, _ = _direction(
+            rest, waves.order, factor, condensed, cap, small, rhs, column, step
+        )
         rounding = rounding_level(moved * stiffest) / max(external, 1e-4 * total, 1e-300)
     answered = is_small(residual, tolerance, rounding) and not beyond
     if basis.shape[0] == 3:
@@ -319,7 +327,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(5), np.zeros((5, 5))
     whole, lying = np.zeros(size), np.zeros(5)
-    factor = np.zeros((size, size - 5))
+    factor = square_room(size)
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
     kinds = waves.mixing.shape[0] // basis.shape[0]
     rooms = wave_room(waves), tangent_room(waves), newton_room(waves, kinds, size, _PAIRS)
@@ -361,8 +369,8 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
 @njit(cache=True, nogil=True, error_model="numpy")
 def stiffness_series(states, waves, law):
     """Tangent (n, 5, 5) of the rigid unknowns, modes eliminated, in each state."""
-    n, modes, space = states.shape[0], states.shape[1] - 5, tangent_room(waves)
-    stiffness, factor = np.zeros((n, 5, 5)), np.zeros((modes + 5, modes))
+    n, space, factor = states.shape[0], tangent_room(waves), square_room(states.shape[1])
+    stiffness = np.zeros((n, 5, 5))
     for i in range(n):
         _, push, slope, across, slant, _ = evaluate(states[i], waves, law)
         condense(waves, law.power, push, slope, across, slant, space, factor, stiffness[i])

@@ -16,6 +16,7 @@ from typing import ClassVar, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.numerics.lanes import aligned, lanes_for
 from loadflow.rolling.contacts import Array, Contacts, Raceway
 from loadflow.rolling.rings.flexible import FlexibleRings
 from loadflow.rolling.rings.patches import PatchPoints
@@ -151,30 +152,39 @@ class RingWaves(NamedTuple):
     Attributes
     ----------
     trig : ndarray, shape (wave, half)
-        Cosines, then sines, over the balls of one half of the ring, with empty waves up to a
-        multiple of four of each: the other half mirrors them. All harmonics up to `top`.
-    products : ndarray, shape (wave, half)
+        Cosines, then sines, over the balls of one half of the ring: the other half mirrors them.
+        All harmonics up to `top`; cosines, sines and balls each filled up with zeros to a multiple
+        of `LANES`.
+    turned : ndarray, shape (half, wave)
+        The same by balls.
+    products : ndarray, shape (half, wave)
         The same of all harmonics that products of two waves have.
-    first, wave, track, place, value : ndarray
-        Parts of each unknown, from first[unknown] to first[unknown + 1]: wave, track, the place of
-        both in an array (track, wave) in one line, and amplitude.
+    first, owner, wave, track, place, spot, value : ndarray
+        Parts of each unknown, from first[unknown] to first[unknown + 1]: unknown, wave, track, the
+        place of both in an array (track, wave) in one line and in that of the tangent, amplitude.
     mixing : ndarray, shape (field · kind, track)
         Fields of each kind of contact, the shift (r, θ, z) of points, in the tracks.
     shapes : ndarray, shape (track · ball, unknown)
-        Tracks that each ball feels of each unknown, filled up to a multiple of eight; empty where
-        the waves are so few that products of them cost less.
+        Tracks that each ball feels of each unknown, in `order`, filled up both ways to a multiple
+        of `LANES`; empty where the waves are so few that products of them cost less.
     cosines, product_cosines : int
         Number of cosines in both tables, empty ones included.
     balls, top : int
         Number of balls, and highest harmonic.
+    order, upto : ndarray, shape (unknown,)
+        Unknowns in the order of the tangent, modes by harmonic, then rigid ones; and the highest
+        harmonic of those up to each.
     """
 
     trig: Array
+    turned: Array
     products: Array
     first: NDArray[np.int64]
+    owner: NDArray[np.uint64]  # unsigned, as kernels look twice at an index that may be negative
     wave: NDArray[np.int64]
     track: NDArray[np.int64]
-    place: NDArray[np.uint64]  # unsigned, as kernels look twice at an index that may be negative
+    place: NDArray[np.uint64]
+    spot: NDArray[np.int64]
     value: Array
     mixing: Array
     shapes: Array
@@ -182,6 +192,8 @@ class RingWaves(NamedTuple):
     product_cosines: int
     balls: int
     top: int
+    order: NDArray[np.int64]
+    upto: NDArray[np.int64]
 
     @classmethod
     def of(cls, basis: Array, balls: int) -> RingWaves:
@@ -200,36 +212,47 @@ class RingWaves(NamedTuple):
         amplitude = np.einsum("tj,ajc->atc", trig / wave_of, shapes)
         seen = np.abs(amplitude) > _ROUNDING * largest
         used = np.flatnonzero(seen.any(axis=(0, 2)))
-        split = _padded(balls // 2 + 1)
-        top = int(np.where(used < split, used, used - split + 1).max())
+        split = lanes_for(balls // 2 + 1)
+        harmonic = np.where(used < split, used, used - split + 1)
+        top = int(harmonic.max())
         owner, wave, track = (np.ascontiguousarray(index) for index in np.nonzero(seen))
-        value, cosines = amplitude[owner, wave, track], _padded(top + 1)
+        value, cosines, tracks = amplitude[owner, wave, track], lanes_for(top + 1), mixing.shape[1]
         first = np.searchsorted(owner, np.arange(size + 1))
+        harmonic = np.where(wave < split, wave, wave - split + 1)
         wave = np.where(wave < split, wave, wave - split + cosines)
-        place = (track * (cosines + _padded(top)) + wave).astype(np.uint64)
-        half, both = balls // 2 + 1, min(2 * top, balls // 2)
+        place = (track * (cosines + lanes_for(top)) + wave).astype(np.uint64)
+        sines = lanes_for((top + 1) * tracks) + (wave - cosines) * tracks
+        spot = np.where(wave < cosines, wave * tracks, sines) + track
+        highest = np.zeros(size, np.int64)
+        np.maximum.at(highest, owner, harmonic)
+        order = np.concatenate([5 + np.argsort(highest[5:], kind="stable"), np.arange(5)])
+        both = min(2 * top, balls // 2)
         # products of waves against products of balls; short loops take thrice the time of long ones
-        few = 3 * len(owner) * (2 * top * mixing.shape[1] + size) < shapes.size * size / 2
-        rows = np.zeros((0 if few else -(-shapes[0].size // 8) * 8, size))
+        few = 3 * len(owner) * (2 * top * tracks + size) < shapes.size * size / 2
+        rows = np.zeros((0 if few else lanes_for(shapes[0].size), lanes_for(size)))
         if not few:
-            rows[: shapes[0].size] = shapes.reshape(size, -1).T
+            rows[: shapes[0].size, :size] = shapes.reshape(size, -1)[order].T
+        trig = _half(_waves(top, balls))
         return cls(
-            np.ascontiguousarray(_waves(top, balls)[:, :half]),
-            np.ascontiguousarray(_waves(both, balls)[:, :half]),
-            first, wave, track, place, value, mixing, rows, cosines, _padded(both + 1), balls, top,
+            aligned(trig), aligned(trig.T), aligned(_half(_waves(both, balls)).T),
+            first, owner.astype(np.uint64), wave, track, place, spot, value, mixing, rows, cosines,
+            lanes_for(both + 1), balls, top, order, np.maximum.accumulate(highest[order]),
         )  # fmt: skip
 
 
-def _padded(count: int) -> int:
-    """Next multiple of four."""
-    return -(-count // 4) * 4
+def _half(waves: Array) -> Array:
+    """The first half of the ring, filled up, of waves (wave, ball)."""
+    balls = waves.shape[1]
+    found = np.zeros((len(waves), lanes_for(balls // 2 + 1)))
+    found[:, : balls // 2 + 1] = waves[:, : balls // 2 + 1]
+    return found
 
 
 def _waves(top: int, balls: int) -> Array:
     """Cosines 0 … top, then sines 1 … top, each filled up with empty waves, (wave, ball)."""
-    cosines = _padded(top + 1)
+    cosines = lanes_for(top + 1)
     angle = 2 * np.pi / balls * np.outer(np.arange(top + 1), np.arange(balls))
-    trig = np.zeros((cosines + _padded(top), balls))
+    trig = np.zeros((cosines + lanes_for(top), balls))
     trig[: top + 1], trig[cosines : cosines + top] = np.cos(angle), np.sin(angle[1:])
     if 2 * top == balls:
         trig[cosines + top - 1] = 0.0  # a sine that is zero at every ball

@@ -21,7 +21,7 @@ from loadflow.stages.effects.film_sizes import largest
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import always_turns
+from loadflow.stages.turning import carried_throughout
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
@@ -179,10 +179,11 @@ def stated(scene: Scene, of: Suspensions) -> bool:
 def switched(scene: Scene, on: bool, of: Suspensions) -> Scene | None:
     """The scene with shafts on rigid bearings, or on films that they are followed with in motion.
 
-    None where these are no films that can be, or the shaft stands at times. `of` says which shafts.
+    None where these are no films that can be: of a shaft that stands at times, those of smooth
+    surfaces. `of` says which shafts.
     """
     journal = with_settings(scene, "journal", _TOGETHER) if on else scene
-    if journal is None or (on and not always_turns(scene)):
+    if journal is None or (on and not carried_throughout(scene)):
         return None
     held = {name for name, one in scene.thrust.collars.items() if not one.self_aligning}
     if on and any(held & {*one.bearings} for _, one, _ in of(scene.shaft, scene.journal)):
@@ -222,7 +223,8 @@ CLEARANCES = Effect(
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
     'journal.tilt, motion = "transient" and rung = "reduced", around bores without pads; '
-    "a thrust collar beside them must be self_aligning, and the shaft never stand",
+    "a thrust collar beside them must be self_aligning; a shaft that stands at times needs "
+    "journal.contact",
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))

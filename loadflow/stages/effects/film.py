@@ -21,7 +21,7 @@ from loadflow.stages.effects.situation import Situation
 from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import always_turns
+from loadflow.stages.turning import always_turns, carried_throughout
 from loadflow.wind.cases import STANDING, load_case
 
 THREE_P = 0.2
@@ -111,12 +111,6 @@ def no_bound_at_standstill(scene: Scene) -> float:
     return UNSURE if always_turns(scene) else UNKNOWN
 
 
-def _may_move(scene: Scene) -> bool:
-    """Whether a film may follow the shaft through all load cases: asperities carry it at rest."""
-    parts = map(scene.journal.at, scene.journal.bearings)
-    return always_turns(scene) or all(part.contact is not None for part in parts)
-
-
 MOTION = Effect(
     "motion of the film",
     model="journal",
@@ -124,7 +118,7 @@ MOTION = Effect(
     is_on=lambda scene: scene.journal.in_motion,
     switched=lambda scene, on: (
         with_settings(scene, "journal", {"motion": "transient" if on else "quasi-static"})
-        if _may_move(scene) or not on
+        if carried_throughout(scene) or not on
         else None
     ),
     indicator=_motion,

@@ -17,8 +17,9 @@ from loadflow.stages.effects.situation import BearingLoad, Floats, Situation
 _AROUND = np.pi * (np.arange(24) + 0.5) / 24
 """Azimuths of rollers from the load, rad; both halves of a row are alike."""
 
-_DISPLACED = np.geomspace(1e-6, 2e-2, 100)
-"""Displacements of a row that are tried, over the diameter of its rollers."""
+_DISPLACED = np.geomspace(1e-6, 1.0, 150)
+"""Displacements of a row that are tried beyond its gaps, over the diameter of its rollers: further
+than any load presses that it carries."""
 
 
 @dataclass(frozen=True)
@@ -47,9 +48,10 @@ class _Row:
 
     def slices(self, push: Floats) -> Floats:
         """Forces (n, azimuth, slice), N, of the row under Σ Q cos ψ = `push` (n,), N."""
-        tried = self._forces(_DISPLACED * self.diameter)
+        displaced = max(float(self.gap.min()), 0.0) + _DISPLACED * self.diameter
+        tried = self._forces(displaced)
         row = self.rollers * np.mean(tried.sum(axis=-1) * np.cos(_AROUND), axis=-1)
-        return self._forces(np.interp(push, row, _DISPLACED * self.diameter))
+        return self._forces(np.interp(push, row, displaced))
 
     def _forces(self, displaced: Floats) -> Floats:
         approach = displaced[:, None, None] * np.cos(_AROUND)[:, None] - self.gap

@@ -9,10 +9,12 @@ import numpy as np
 
 from loadflow.data import ladder
 from loadflow.rolling import RingBeam, RingSection
+from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNSURE, Effect, Sizes
 from loadflow.stages.effects.situation import Situation
+from loadflow.stages.rolling_at_work import overloaded_words
 from loadflow.stages.stage import with_settings
 
 STEEL_DENSITY = 7850.0  # kg/m³
@@ -158,6 +160,22 @@ RINGS = Effect(
         "along; rings of ball, crossed and three-row bearings are rigid here"
     ),
 )
+
+
+def overloaded(at: Situation) -> list[str]:
+    """Say which rolling bearings the estimated loads overload, and by which factor."""
+    found = []
+    for name, part in at.scene.rolling.bearings.items():
+        load = at.bearings[name]
+        over = static_overload(
+            part.geometry,
+            load.radial + load.swing,
+            np.abs(load.force[:, 0]) + load.surge,
+            np.hypot(load.moment[:, 1], load.moment[:, 2]) + load.turn,
+        )
+        if (most := float(over.max())) > 1:
+            found.append(overloaded_words(f"rolling bearing {name}", most))
+    return found
 
 
 def _centrifugal(at: Situation) -> Sizes:

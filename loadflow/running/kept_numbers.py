@@ -1,0 +1,81 @@
+"""Numbers of a candidate, kept beside its run: a comparison that was stopped goes on with them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from loadflow import __version__
+from loadflow.storage import write_text
+from loadflow.studies.compare_numbers import Finished
+from loadflow.studies.compare_result import Judged, Number
+from loadflow.verdict import Verdict
+
+FILE = "numbers.json"
+
+_OF_RUN = ("stages", "rungs", "expected_errors", "effects", "failures", "refined", "taken")
+"""What numbers rest on in a manifest, beside the scene; not when a run was made, and how fast."""
+
+
+def key_of(run: Finished, **beside: Any) -> str:
+    """SHA-256 of all that the numbers of a candidate rest on.
+
+    Parameters
+    ----------
+    run : Finished
+        Its run.
+    **beside
+        What else they rest on, in plain values.
+    """
+    told = {
+        "version": __version__,
+        "candidate": (run.name, run.title, run.source),
+        "scene": run.scene.digest(),
+        "run": {name: run.manifest.get(name) for name in _OF_RUN},
+        "beside": beside,
+    }
+    text = json.dumps(told, sort_keys=True, default=_plain)
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def keep(run: Finished, key: str, found: Judged) -> None:
+    """Write the numbers of a candidate into the folder of its run."""
+    told = {"of": key, "found": asdict(found)}
+    write_text(run.folder / FILE, json.dumps(told, indent=1, default=_plain))
+
+
+def kept(run: Finished, key: str) -> Judged | None:
+    """Numbers of a candidate that rest on just this; None without any, or of a damaged file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from types import SimpleNamespace
+    >>> kept(SimpleNamespace(folder=Path(tempfile.mkdtemp())), "") is None
+    True
+    """
+    told = _read(run.folder / FILE)
+    if told.get("of") != key:
+        return None
+    found = dict(told["found"])
+    found["numbers"] = {name: Number(**one) for name, one in found["numbers"].items()}
+    found["verdicts"] = tuple(Verdict(**one) for one in found["verdicts"])
+    return Judged(**found)
+
+
+def _read(path: Path) -> Mapping[str, Any]:
+    try:
+        told = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):  # not there, or damaged: they are found anew
+        return {}
+    return told if isinstance(told, dict) else {}
+
+
+def _plain(value: Any) -> Any:
+    """A number of numpy as one of Python."""
+    return value.item()

@@ -1,0 +1,91 @@
+"""Each rolling bearing has its own cooling, in runs, comparisons and designs."""
+
+import pytest
+from synthetic import cube_file
+
+from loadflow.cube import open_cube
+from loadflow.errors import InputError
+from loadflow.running.comparison import compare
+from loadflow.scene.friction import Cooling, Friction
+from loadflow.scene.scene import make_scene, read_scene
+from loadflow.scene.unused import unused_keys
+from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_margins import lubrication
+
+AIR = 288.15
+COOLING = {"N": {"conductance": 12.0}, "N2": {"area": 4.0, "transfer": 20.0}}
+
+
+@pytest.fixture(scope="module")
+def cooled(tmp_path_factory):
+    cube = cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", steps=200)
+    data = {
+        "name": "cooled",
+        "loads": {"files": [str(cube)]},
+        "candidates": {"two-spherical": {}},
+        "friction": {"cooling": COOLING, "ambient_temperature": AIR},
+        "as_built": {"roughness": 0.0, "alignment": 0.0, "clearance": 0.0, "viscosity": 0.0},
+    }
+    found = compare(make_scene(data), out=tmp_path_factory.mktemp("runs"))
+    one = found.comparison.candidates[0]
+    folder = found.path / one.folder
+    table = open_cube(folder / "result.h5")["rolling"].to_dataset().load()
+    return folder, read_scene(folder / "scene.toml"), table, one.numbers, found.comparison.facts
+
+
+def test_each_bearing_sheds_its_losses_by_its_own_cooling(cooled):
+    folder, scene, table, *_ = cooled
+    losses = rolling_losses(scene, folder, table).power.sel(case=table["case"])
+    for place, conductance in (("N", 12.0), ("N2", 80.0)):
+        shed = conductance * (table["bearing_temperature"].sel(bearing=place) - AIR)
+        ratio = (losses.sel(bearing=place) / shed).values
+        assert ratio == pytest.approx(1.0, rel=0.05)  # in few samples
+
+
+def test_the_page_tells_the_cooling_of_each_bearing(cooled):
+    *_, table, numbers, told = cooled
+    warm = numbers["bearing_temperature"]
+    warmest = table["bearing_temperature"].max("case")
+    where = str(warmest.idxmax("bearing").item())
+    assert warm.place == where
+    assert {"N": "12 W/K", "N2": "80 W/K"}[where] in warm.note
+    assert "N 12 W/K, N2 80 W/K" in told["Lubricant of rolling bearings"]
+
+
+def test_the_band_by_the_temperature_of_the_oil_is_around_that_of_each_bearing(cooled):
+    _, scene, table, numbers, _ = cooled
+    kappa = numbers["viscosity_ratio"]
+    warm = float(table["bearing_temperature"].sel(bearing=kappa.place).max())
+
+    oil = lubrication(scene.friction).oil
+    thinner = float(oil.kinematic_viscosity(warm + 5.0) / oil.kinematic_viscosity(warm))
+    assert kappa.tolerance_low / kappa.value == pytest.approx(thinner, rel=1e-3)
+
+
+def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():
+    friction = Friction(conductance=60.0, cooling={"N": Cooling(temperature=330.0)})
+    assert friction.conductance_at("N") is None
+    assert friction.temperature_at("N") == friction.of("N").temperature == 330.0
+    assert friction.conductance_at("N2") == friction.of("N2").conductance == 60.0
+    warmer = friction.warmed(lambda kelvin: kelvin + 5.0)
+    assert (warmer.temperature_at("N"), warmer.temperature_at("N2")) == (335.0, 318.15)
+
+
+@pytest.mark.parametrize(
+    "one", [{}, {"area": 3.0}, {"conductance": 3.0, "temperature": 300.0}, {"conductance": -1.0}]
+)
+def test_a_cooling_is_of_one_form(one):
+    with pytest.raises(InputError, match=r"friction\.cooling\.N"):
+        make_scene({"name": "x", "friction": {"cooling": {"N": one}}})
+
+
+def test_a_cooling_where_no_rolling_bearing_stands_is_told():
+    scene = make_scene(
+        {
+            "name": "x", "results": ["rolling.life"], "shaft": {"moment": {}},
+            "friction": {"cooling": {"N3": {"conductance": 5.0}, "M": {"conductance": 50.0}}},
+        }
+    )  # fmt: skip
+    unused = unused_keys(scene)
+    assert "friction.cooling.N3" in unused
+    assert "friction.cooling.M" not in unused

@@ -1,0 +1,78 @@
+"""Bearings that are far too small for their loads are told by name, with the factor."""
+
+import json
+
+import numpy as np
+import pytest
+from synthetic import cube_file
+
+from loadflow.errors import SolverError
+from loadflow.planning.plan import make_plan
+from loadflow.rolling import RollerBearing, main_bearings
+from loadflow.rolling.rating.static import static_overload
+from loadflow.scene.cases import list_cases
+from loadflow.scene.scene import make_scene
+from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.effects.situation import situation
+from loadflow.stages.rolling_at_work import rest
+
+
+def scene_of(folder, size, kind="spherical", results=("rolling.life",)):
+    """Two bearings of `size` m pitch diameter with more clearance than their rollers give way."""
+    rows = {"rows": 2, "row_spacing": 0.2 * size} if kind == "roller" else {}
+    geometry = rows | {
+        "rollers": 20, "roller_diameter": size / 10, "roller_length": size / 10,
+        "pitch_diameter": size, "contact_angle": 0.15, "clearance": 0.01 * size,
+    }  # fmt: skip
+    bearing = {"kind": kind, "geometry": geometry}
+    cube = cube_file(folder / "loads.h5", seeds=(1,), steps=60)
+    return make_scene(
+        {
+            "name": "small", "loads": {"files": [str(cube)]}, "results": [*results],
+            "bearings": {"N": bearing, "N2": bearing},
+        }
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["spherical", "roller"])
+@pytest.mark.parametrize("size", [0.1, 0.01])
+def test_indicators_of_overloaded_bearings_are_numbers(tmp_path, size, kind):
+    scene = scene_of(tmp_path, size, kind)
+    at = situation(scene, list_cases(scene))
+    rolling = [effect for effect in EFFECTS if effect.model == "rolling" and effect.concerns(scene)]
+    sizes = {effect.name: effect.indicator(at) for effect in rolling}
+    assert "profile and tilt of the rollers" in sizes
+    assert all(np.isfinite([*found.values()]).all() for found in sizes.values())
+
+
+def test_a_plan_names_overloaded_bearings_and_the_factor(tmp_path):
+    small, large = (make_plan(scene_of(tmp_path, size)) for size in (0.1, 2.5))
+    assert large.overloaded == ()
+    assert [said.split(" is overloaded")[0] for said in small.overloaded] == [
+        "rolling bearing N", "rolling bearing N2",
+    ]  # fmt: skip
+    assert "times its static capacity" in small.overloaded[0]
+    json.dumps([dict(effect.indicator) for effect in small.effects], allow_nan=False)
+
+
+def test_a_bearing_without_equilibrium_is_said_to_be_overloaded(tmp_path):
+    part = scene_of(tmp_path, 0.01).rolling.bearings["N"]
+    force = np.array([[0.0, 0.0, -1e6]])
+    with pytest.raises(SolverError, match=r"overloaded: the load is [\d.e+]+ times its static"):
+        rest(part, force, np.zeros((1, 3)))
+
+
+def test_the_overload_is_that_of_iso_76():
+    leaning = RollerBearing(
+        rollers=30, roller_diameter=0.05, roller_length=0.06, pitch_diameter=1.0,
+        rows=2, row_spacing=0.1, contact_angle=0.3,
+    )  # fmt: skip
+    capacity = leaning.static_capacity
+    thrust = 0.44 / np.tan(0.3)  # Y₀ of two rows
+    assert static_overload(leaning, capacity, 0.0, 0.0) == pytest.approx(1.0)
+    assert static_overload(leaning, 0.0, capacity, 0.0) == pytest.approx(thrust)
+    ring = main_bearings("moment")["M"]
+    load = static_overload(ring, 0.0, ring.static_capacity, 0.0)
+    assert load == pytest.approx(1.0)
+    half = ring.static_capacity * ring.pitch_diameter / 8
+    assert static_overload(ring, 0.0, 0.0, half) == pytest.approx(0.5)
