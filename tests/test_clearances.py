@@ -107,12 +107,12 @@ def test_loads_that_a_film_does_not_carry_leave_the_estimate_of_the_others():
 def test_a_plan_counts_the_tilt_in_the_clearances_until_films_are_fed_back():
     rigid, floats = (scene_of(part, motion="quasi-static") for part in ([], FLOATS))
     left, counted = make_plan(rigid), make_plan(floats)
-    assert left.errors["journal.film"]["minimum film"] > 1.0
+    thin, thinner = (one.errors["journal.film"]["minimum film"] for one in (counted, left))
+    assert thin < 1.0 < thinner  # what is left is the motion of films that are thin at their ends
     assert not left.accurate
     assert any(CLEARANCES.name in said for said in left.shortfalls)
     assert CLEARANCES.name in left.left_out
     assert CLEARANCES.name not in counted.left_out
-    assert counted.errors["journal.film"]["minimum film"] < 0.5
     assert not any(CLEARANCES.name in said for said in counted.shortfalls)
 
 

@@ -165,9 +165,9 @@ of one wind speed, an indicator at the hardest of all. Between the factors of th
 plan leaves the question open, and asks the pilot where it has one: an effect is out for certain if
 it would be small even by so much more, and kept for certain if it would be large even by so much
 less ([accuracy](accuracy.md)); 0: no indicator is a bound there, as asperities carry the shaft.
-Beyond them is the shell at 15 MW and 24 m/s, where the shaft touches the ends of its bearings; no
-plan leaves out the coherence of lateral turbulence. Written by `python -m
-benchmarks.ladder.indicators`."""
+Beyond them are shell, supply and growth at 15 MW where the bent shaft takes most of the film at the
+ends of its bearings, as these indicators know that of mid-plane. No plan leaves out the coherence
+of lateral turbulence. Written by `python -m benchmarks.ladder.indicators`."""
 
 
 def main() -> None:

@@ -6,7 +6,6 @@ Each function measures one part, and yields turbine, wind speed and the sizes fo
 from __future__ import annotations
 
 import math
-import time
 import tomllib
 from collections.abc import Callable, Iterable, Iterator
 from itertools import product
@@ -19,13 +18,15 @@ from benchmarks.common import ROOT
 from benchmarks.ladder import wind
 from loadflow.errors import SolverError
 from loadflow.journal import Growth, Heat
-from loadflow.planning.effects import switched
-from loadflow.planning.pilot import Effort, Questions, measure, pilot
+from loadflow.planning.effects import concerned, switched
+from loadflow.planning.pilot import Effort, Questions, measure
+from loadflow.planning.plan import chosen_models, needed_stages
 from loadflow.rotor import simulate_condition
 from loadflow.scene.bearings import standing_ring
 from loadflow.scene.candidates import machine
 from loadflow.scene.cases import Case, list_cases, wind_of
 from loadflow.scene.scene import Scene
+from loadflow.scene.shaft import Shaft
 from loadflow.stages.effects import film as film_effects
 from loadflow.stages.effects import film_heat
 from loadflow.stages.effects import shaft as shaft_effects
@@ -55,10 +56,6 @@ STEEL = 2.1e11  # Pa
 REALISED = 6
 """Seeds of a wind speed where a mean over seeds is told."""
 
-MEASURED_AT = {"hub_to_first": 1.0, "span": 2.4}
-"""Places of the bearings of the direct drive, m, at which its sizes were measured; sized ones have
-others since."""
-
 BLADES = "bending of the blades"
 TOWER = "sway of the tower, twist of the drivetrain"
 GRIDS = {"grid of the wind finer than 11 × 48": (11, 48), "… than 11 × 144": (11, 144)}
@@ -86,6 +83,8 @@ SEATS: dict[str, dict[str, Any]] = {
 
 REFERENCE = ROOT / "pipelines" / "dlc_1_1.toml"
 STOP = ROOT / "pipelines" / "dlc_4_2_shutdown.toml"
+FITS = 0.875
+"""Width of a bearing over the distance to the next, at most; that of those sized for 15 MW."""
 HOLLOW = 0.9
 """Bore of the shaft over its diameter, as in the main job."""
 
@@ -101,15 +100,14 @@ def scene_of(
     """Two journal bearings and a ball bearing for the moment; the shaft as a beam as wide as they.
 
     The journal bearings are those of the main job, their diameter and width in proportion to the
-    rotor's, or `sized`: those of the package for this turbine. `film` are keys of them (None: left
-    out), `supports` those of the beam. The ball bearing is the sized one; its rings are square,
-    with sides of 2.4 balls. Beside the others it stands at M, or takes the place of one of them.
+    rotor's, as far as they fit beside each other, or `sized`: those of the package for this
+    turbine. `film` are keys of them (None: left out), `supports` those of the beam. The ball
+    bearing is the sized one; its rings are square, with sides of 2.4 balls. Beside the others it
+    stands at M, or takes the place of one of them.
     """
     known = machine(turbine)
     shaft = {place: dict(keys) for place, keys in known["shaft"].items()}
     two = next(place for place in shaft if place != "moment")
-    if two == "direct_drive":
-        shaft[two] |= MEASURED_AT
     rolling = known["candidates"]["four-point"]
     inner = rolling["M"]["geometry"]
     side, mean = 2.4 * inner["ball_diameter"], inner["pitch_diameter"] / 2
@@ -124,6 +122,8 @@ def scene_of(
         main = tomllib.loads(REFERENCE.read_text(encoding="utf-8"))["bearings"]["N"]
         size = load_turbine(turbine).rotor.radius / load_turbine("nrel-5mw").rotor.radius
         lengths = {key: size * main["geometry"][key] for key in ("diameter", "width")}
+        first, *_, last = Shaft.model_validate({two: shaft[two]}).concepts[0].positions
+        lengths["width"] = min(lengths["width"], FITS * (last - first))
         own = main | {"geometry": main["geometry"] | lengths}
         journal = dict.fromkeys(("N", "N2"), own)
         outer = lengths["diameter"]
@@ -151,23 +151,25 @@ def _left(known: Found, speeds: tuple[float, ...] = SPEEDS) -> Iterator[tuple[st
 
 
 def at_work(turbine: str, speed: float) -> Scene:
-    """Scene of `sizes`: all effects that a plan may take."""
-    return scene_of(turbine, loads={"wind_speeds": [speed]} | SHORT, accuracy=0.02)
+    """Scene of `sizes`: all effects that a plan may take of a shaft on rigid bearings."""
+    loads = {"wind_speeds": [speed]} | SHORT
+    return scene_of(turbine, supports=({}, {}), loads=loads, accuracy=0.02)
 
 
 def sizes(known: Found) -> Found:
-    """Measured size of every effect, by turbine and wind speed."""
+    """Measured size of every effect, by turbine and wind speed; of a shaft on rigid bearings.
+
+    Where it tilts in its clearances other effects drown; that has a part of its own.
+    """
     for turbine, speed in _left(known):
-        begun = time.process_time()
-        verdict = pilot(at_work(turbine, speed), effort=THOROUGH)
-        print(turbine, speed, f"{time.process_time() - begun:.0f} s", flush=True)
-        if verdict is not None:
-            yield {
-                "turbine": turbine,
-                "speed": speed,
-                "sizes": verdict.sizes,
-                "refused": verdict.refused,
-            }
+        scene = at_work(turbine, speed)
+        chosen = chosen_models(scene, tuple(list_cases(scene))).scene
+        others = [
+            one
+            for one in concerned(chosen, needed_stages(chosen))
+            if one is not CLEARANCES and switched(chosen, one, not one.is_on(chosen)) is not None
+        ]
+        yield _measured(turbine, speed, chosen, *others)
 
 
 def elements(known: Found) -> Found:

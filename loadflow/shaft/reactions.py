@@ -65,7 +65,7 @@ def bearing_loads(
     tolerance : float
         Largest change of a reaction in the last iteration, relative to the largest reaction.
     strict : bool
-        Raise for a load under which shaft and bearings do not agree; else `settled` is False.
+        Raise for a load under which shaft and bearings do not agree; else `converged` is False.
 
     Returns
     -------
@@ -74,8 +74,8 @@ def bearing_loads(
         `position` (bearing), m from the hub centre. The torque passes by all bearings. With a beam
         also `displacement` (m), `tilt` (rad) and `curvature` (1/m) of the shaft in each bearing,
         the `bore_tilt` (rad) of that bearing on its housing and frame, and the attributes
-        `converged`, `residual` and `iterations`; with models also `settled`
-        (time), whether shaft and bearings agree.
+        `converged`, `residual` and `iterations`; with models also `converged`
+        (bearing, time), whether shaft and bearings agree.
 
     Raises
     ------

@@ -21,7 +21,9 @@ import numpy as np
 
 SHARE = 1e-11
 RETURNED = 2.718e-11  # another share: with the same one, factors above and below a line cancel
-COMPILED = re.compile(r"^from numba|^import numba|_compile import|Cells\b", re.MULTILINE)
+COMPILED = re.compile(
+    r"^from numba|^import numba|_compile import|linked import|Cells\b", re.MULTILINE
+)
 EXACT = ["loadflow.rolling.roller_raceways"]
 """What stays as it is: slices of rollers, and the rooms given."""
 

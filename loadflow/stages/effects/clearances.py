@@ -6,7 +6,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import (
     Suspensions,
@@ -16,9 +15,10 @@ from loadflow.scene.shaft_place import (
 )
 from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
+from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest
-from loadflow.stages.effects.situation import CHART_WIDTHS, Floats, Situation
+from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import carried_throughout
@@ -63,22 +63,15 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
 
 def place_of(at: Situation, name: str, sign: float) -> Place:
     """Place of a film under the mean load, and pushed by its deviation × `sign` as by `slopes`."""
-    own, load = at.scene.journal.at(name), at.bearings[name]
-    held = own.at_temperature(own.heat.inlet_temperature) if own.heat else own
-    size = own.geometry
-    width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
-    bearing = replace(size, shape=CYLINDER, relief=(), width=width)
+    chart, load = charted(at.scene.journal.at(name)), at.bearings[name]
     force = load.force + sign * _WAYS[:, None] * load.swing[:, None]
     force = to_film(force)
     pressed = np.hypot(force[..., 0], force[..., 1])
-    force = force * width / size.width
     position, film = np.full((*force.shape[:2], 3), np.nan), np.full(force.shape[:2], np.nan)
     if at.turns.any():
         some = force[:, at.turns]
         speed = np.broadcast_to(at.speed[at.turns], some.shape[:2])
-        found = bearing.equilibrium(
-            some.reshape(-1, 2), speed.ravel(), held.lubricant, rung="chart", strict=False
-        )
+        found = chart.equilibrium(some.reshape(-1, 2), speed.ravel())
         lies = np.asarray(found.eccentricity).reshape(some.shape)
         position[:, at.turns] = from_film(lies)
         film[:, at.turns] = np.asarray(found.minimum_film).reshape(some.shape[:2])
@@ -128,20 +121,42 @@ def closed_ends(at: Situation) -> dict[str, float]:
     return {name: float(ends.share.max()) for name, ends in _ends(at).items()}
 
 
+def thinnest_by(at: Situation, name: str, by: float) -> float:
+    """Thinnest film of a bearing over what it is, where films at mid-plane are `by` × as thick.
+
+    At the ends a shaft that floats in films takes more of it: x is as 1/h. As much as at mid-plane
+    where no plan lets the shaft tilt so, or its surfaces touch.
+    """
+    scene = at.scene
+    open_ = CLEARANCES.is_open(scene) and switched(scene, True, floating) is not None
+    ends = _ends(at).get(name) if open_ or CLEARANCES.is_on(scene) else None
+    if ends is None or by <= 0.0:
+        return by
+    gap, least = ends.film, scene.journal.at(name).contact_film
+    thin = _left(by * gap, ends.share / by, least).min() / _left(gap, ends.share, least).min()
+    return float(max(thin, by) if by > 1.0 else min(thin, by))
+
+
+def _left(film: Floats, share: Floats, least: float) -> Floats:
+    """Film at the ends, which take `share` of that at mid-plane of an aligned shaft, m.
+
+    Slices of a film as thin as h carry ∝ 1/h, so that mid-plane rises by x/tanh x and the film at
+    the end is 2x/(e^2x − 1) of that of an aligned shaft: it closes, up to where surfaces touch.
+    """
+    x = np.clip(share, 1e-9, 300.0)  # beyond, nothing is left in any number
+    return np.asarray(np.maximum(film * 2.0 * x / np.expm1(2.0 * x), least))
+
+
 def _indicator(at: Situation) -> Sizes:
     """What the ends take, x, changes, at the same load.
 
-    Slices of a film as thin as h carry ∝ 1/h, so that mid-plane rises by x/tanh x and the film at
-    the end is 2x/(e^2x − 1) of that of an aligned shaft: it closes, up to where surfaces touch. The
-    rest is calibrated on pilots of sized cylindrical bores, docs/physics.md.
+    Of the film by `_left`; the rest is calibrated on pilots of sized cylindrical bores,
+    docs/physics.md.
     """
     found = []
     for name, ends in _ends(at).items():
-        x = np.maximum(ends.share, 1e-9)
-        left = np.maximum(
-            ends.film * 2.0 * x / np.expm1(2.0 * x), at.scene.journal.at(name).contact_film
-        )
-        most = float(x.max())
+        left = _left(ends.film, ends.share, at.scene.journal.at(name).contact_film)
+        most = float(np.maximum(ends.share, 1e-9).max())
         found.append(
             {
                 "eccentricity ratio": 0.03 * most,

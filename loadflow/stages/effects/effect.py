@@ -16,8 +16,8 @@ Sizes = Mapping[str, float]
 """By quantity, the share by which an answer changes if the effect is left out."""
 
 UNSURE = 3.0
-"""An effect over its indicator, where its pilots found no more; docs/physics.md. Exceeded by an
-elastic shell where the shaft touches the ends of its bearings (15 MW, 24 m/s): 220 times."""
+"""An effect over its indicator, where its pilots found no more; docs/physics.md. Exceeded by shell,
+supply and growth where a bent shaft closes the ends of its bearings (15 MW): 8 times."""
 
 UNKNOWN = 1e4
 """The same where no indicator is a bound: then an effect is never out for certain."""

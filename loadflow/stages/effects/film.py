@@ -13,7 +13,7 @@ from loadflow.journal import Turbulence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floats_in_films
-from loadflow.stages.effects.clearances import closed_ends
+from loadflow.stages.effects.clearances import closed_ends, thinnest_by
 from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
@@ -81,7 +81,9 @@ def _motion(at: Situation) -> Sizes:
         # the mean of the friction moves less than its extremes
         power = MEAN * gain["friction power"] * float(np.max(change))
         eccentricity = gain["eccentricity ratio"] * change
-        found.append(worst(film, eccentricity, gain["maximum pressure"] * change, power))
+        sizes = dict(worst(film, eccentricity, gain["maximum pressure"] * change, power))
+        sizes["minimum film"] = 1.0 - thinnest_by(at, name, 1.0 - sizes["minimum film"])
+        found.append(sizes)
     return largest(found)
 
 

@@ -13,6 +13,7 @@ from loadflow.errors import InputError
 from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.clearances import thinnest_by
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film import no_bound_at_standstill
 from loadflow.stages.effects.film_costs import cost_of, cost_of_heat
@@ -42,10 +43,11 @@ def _heat(at: Situation) -> Sizes:
         thinner = np.exp(-_steepness(at.scene.journal.at(name)) * _rise(at, name))
         cold, warm = (at.film(name, thinner=by) for by in (1.0, thinner))
         usual, thin = (at.film(name, share=0.0, thinner=by) for by in (1.0, thinner))
+        thicker = thinnest_by(at, name, 1.0 + _off(cold.minimum_film, warm.minimum_film))
         found.append(
             {
                 "eccentricity ratio": _off(cold.eccentricity_ratio, warm.eccentricity_ratio),
-                "minimum film": _off(cold.minimum_film, warm.minimum_film),
+                "minimum film": thicker - 1.0,
                 "maximum pressure": _off(cold.maximum_pressure, warm.maximum_pressure),
                 "friction power": _off(usual.friction_power, thin.friction_power),
             }

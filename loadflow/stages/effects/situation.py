@@ -20,11 +20,12 @@ from numpy.typing import NDArray
 from loadflow.errors import LoadflowError
 from loadflow.journal import DoubleThrustBearing, DoubleThrustResult
 from loadflow.journal import Film as PadFilm
-from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.cases import Case, wind_of
 from loadflow.scene.scene import Scene
 from loadflow.shaft import Beam, bearing_loads, pitch_loads, yaw_loads
 from loadflow.shaft.beam import ShaftSection
+from loadflow.stages.effects.chart_films import charted
+from loadflow.stages.effects.shared_loads import fed_back, held
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
 from loadflow.stages.turning import SLOWEST, is_parked
@@ -82,6 +83,8 @@ class BearingLoad:
     held : ndarray, shape (n,)
         Largest radial force with bearings that are rigid where they take a moment, over that with
         bearings that take none, less 1; 0 where the suspension is statically determinate.
+    fed_back : ndarray, shape (n,)
+        The same over that of a shaft on its own bearings, where their stiffness is fed back to it.
     """
 
     force: Floats
@@ -91,15 +94,12 @@ class BearingLoad:
     surge: Floats
     slope: Floats
     held: Floats
+    fed_back: Floats
 
     @property
     def radial(self) -> Floats:
         """Mean radial force (n,), N."""
         return np.asarray(np.hypot(self.force[:, 1], self.force[:, 2]))
-
-
-CHART_WIDTHS = 1 / 8, 1.0
-"""Width over diameter that the charts know."""
 
 
 @dataclass(frozen=True)
@@ -186,27 +186,21 @@ class Situation:
         """Film of a bearing under its mean load and a share of the largest deviation from it.
 
         With `thinner` its oil has that share of the viscosity with which it enters; (n,) or one.
-        A width that the charts do not know is taken at the end of their range, under the same
-        specific load.
         """
         journal, load = self.scene.journal.at(name), self.bearings[name]
         radial = load.radial + share * load.swing
         if not self.turns.any():
             return self._resting(name, radial)
-        held = journal.at_temperature(journal.heat.inlet_temperature) if journal.heat else journal
-        size = held.geometry
-        width = float(np.clip(size.width_ratio, *CHART_WIDTHS)) * size.diameter
-        bearing = replace(size, shape=CYLINDER, relief=(), width=width)
         # charts know the load over the viscosity: a thinner oil is as a larger load
-        radial = (radial / thinner)[self.turns] * width / size.width
-        force, speed = np.stack([radial, np.zeros_like(radial)], axis=-1), self.speed[self.turns]
-        film = bearing.equilibrium(force, speed, held.lubricant, rung="chart", strict=False)
+        radial, chart = (radial / thinner)[self.turns], charted(journal)
+        force = np.stack([radial, np.zeros_like(radial)], axis=-1)
+        film = chart.equilibrium(force, self.speed[self.turns])
         columns = {name: np.full(self.speed.shape, np.nan) for name in Film.__dataclass_fields__}
         for one, values in columns.items():
             values[self.turns] = getattr(film, one)
-        columns["friction_power"] *= size.width / width * thinner
+        columns["friction_power"] *= thinner / chart.share
         columns["maximum_pressure"] *= thinner
-        columns["maximum_pressure"] += held.edge_pressure  # that of charts is above it
+        columns["maximum_pressure"] += journal.edge_pressure  # that of charts is above it
         return Film(**columns)
 
     def _resting(self, name: str, radial: Floats) -> Film:
@@ -284,6 +278,7 @@ def _of_wind(scene: Scene, cases: list[Case]) -> Situation:
             scene,
             rotor.tilt,
             *_hub(force, turbine.rotor_mass, swing),
+            turning,
             root=_root(turbine, force, swing, turning),
         )
         for force, swing, turning in zip(thrust, DEVIATIONS * deviation, speed)
@@ -335,11 +330,13 @@ def _on_bearings(
     tilt: float,
     force: Floats,
     moment: Floats,
+    speed: float,
     root: tuple[Floats, Floats] | None = None,
 ) -> dict[str, tuple[Floats, ...]]:
     """Mean force, mean moment and their largest deviations, by bearing of a rigid shaft."""
     found = {}
-    slopes, held = (of(scene, tilt, force, moment) for of in (_slopes, _held))
+    slopes, stiff = (of(scene, tilt, force, moment) for of in (_slopes, held))
+    own = fed_back(scene, tilt, force, moment, speed)
     every = [
         bearing_loads(replace(concept, beam=None), force, moment, tilt=tilt)
         for concept in scene.shaft.concepts
@@ -354,8 +351,8 @@ def _on_bearings(
             push, turn = (one[n].transpose(..., "axis").values for n in ("force", "moment"))
             away = (np.hypot(*to_film(v - v[0]).T).max() for v in (push, turn))
             along = np.abs(push[:, 0] - push[0, 0]).max()
-            own = (of.get(str(name), 0.0) for of in (slopes, held))
-            found[str(name)] = push[0], turn[0], *map(np.asarray, (*away, along, *own))
+            more = (of.get(str(name), 0.0) for of in (slopes, stiff, own))
+            found[str(name)] = push[0], turn[0], *map(np.asarray, (*away, along, *more))
     return found
 
 
@@ -381,25 +378,6 @@ def _slopes(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[st
     return found
 
 
-def _held(scene: Scene, tilt: float, force: Floats, moment: Floats) -> dict[str, float]:
-    """What bearings that take a moment change of the largest radial force, if they are rigid."""
-    found: dict[str, float] = {}
-    for concept in scene.shaft.concepts:
-        if concept.beam is None or not any(one.takes_moment for one in concept.beam.supports):
-            continue
-        rigid = replace(concept, beam=concept.beam.on_rigid_bearings())
-        with_moment, without = (
-            np.hypot(*loads["force"].sel(axis=["y", "z"]).transpose("axis", "bearing", ...).values)
-            for loads in (
-                bearing_loads(one, force, moment, tilt=tilt)
-                for one in (rigid, replace(concept, beam=None))
-            )
-        )
-        largest, free = with_moment.max(axis=1), without.max(axis=1)
-        found |= dict(zip(concept.bearings, np.abs(largest / free - 1.0).tolist()))
-    return found
-
-
 def _of_series(scene: Scene, case: Case) -> Situation:
     """Loads of a given series."""
     from loadflow.stages.loads import hub_loads
@@ -419,10 +397,10 @@ def _of_series(scene: Scene, case: Case) -> Situation:
         at_root = root_loads(series)
         root = with_mean(at_root[0]), with_mean(at_root[1])
     tilt = load_turbine(scene.turbine.name).rotor.tilt
-    parts = _on_bearings(scene, tilt, force, moment, root)
-    bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
     mean = float(np.abs(series["speed"]).mean())
-    speed = np.array([0.0 if is_parked(case) or mean < SLOWEST else mean])
+    speed = 0.0 if is_parked(case) or mean < SLOWEST else mean
+    parts = _on_bearings(scene, tilt, force, moment, speed, root)
+    bearings = {name: BearingLoad(*(v[None] for v in part)) for name, part in parts.items()}
     wind = np.array([case.wind_speed])
     thrust = np.minimum(0.8, 7.0 / np.maximum(wind, 1e-3))
-    return Situation(scene, wind, np.array([GUST]), speed, bearings, thrust)
+    return Situation(scene, wind, np.array([GUST]), np.array([speed]), bearings, thrust)
