@@ -11,6 +11,7 @@ from loadflow.planning.choice import finer
 from loadflow.planning.plan import make_plan
 from loadflow.planning.verification import to_refine
 from loadflow.scene.scene import make_scene
+from loadflow.stages.comparisons import remembered
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
 
@@ -48,6 +49,16 @@ def test_the_warning_of_a_film_in_motion_shrinks_with_its_grid(cube, tmp_path):
         chosen = (check["stage"] == "journal") & (check["quantity"] == "eccentricity ratio")
         moved.append(float(check["difference"].values[chosen.values].max()))
     assert moved[1] < moved[0]
+
+
+def test_a_film_that_started_lately_is_followed_again_from_its_start():
+    """Oil that was lacking as it stood comes as fast as the shaft turns."""
+    speed = np.concatenate([np.zeros(100), np.full(900, 1.0)])
+    film = xr.Dataset({"speed": ("sample", speed), "running": ("sample", speed > 0.0)})
+    assert remembered(film, 300, 0.05).size == 300  # 10 rad since then, two turns are 12.6
+    assert not remembered(film, 300, 0.05).all()
+    assert remembered(film, 600, 0.05).size == pytest.approx(4.0 * np.pi / 0.05, abs=1)
+    assert remembered(film, 600, 0.05).all()
 
 
 def test_rigid_rings_are_compared_with_flexible_ones(cube, tmp_path):

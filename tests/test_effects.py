@@ -151,7 +151,9 @@ def test_an_effect_is_in_or_out_as_it_is_switched(effect, cube):
 
 
 GROOVE = {"angle": 3.14, "length": 0.5, "pressure": 6e5}
-CIRCLE = {"grooves": [GROOVE | {"shape": "circle"}]}
+CIRCLE = {"supply": {"grooves": [GROOVE | {"shape": "circle"}]}}
+THICK = {"shell": {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}}
+ROUGH = {"contact": {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}}
 
 
 @pytest.mark.parametrize(
@@ -159,20 +161,19 @@ CIRCLE = {"grooves": [GROOVE | {"shape": "circle"}]}
     [
         (
             film.SUPPLY,
-            {"grooves": [GROOVE | {"arc": 0.3}]},
+            {"supply": {"grooves": [GROOVE | {"arc": 0.3}]}},
             CIRCLE,
             "rectangular ones, each on one segment",
         ),
+        (film.SHELL, THICK, THICK | ROUGH, "all over without contact"),
     ],
-    ids=["supply"],
+    ids=["supply", "shell"],
 )
 def test_a_rung_that_knows_a_part_of_an_effect_is_listed_with_that_part(
     effect, known, unknown, said
 ):
-    (key,) = effect.keys
-
-    def scene(value, rung):
-        return make_scene({"journal": {key.removeprefix("journal."): value, "rung": rung}})
+    def scene(tables, rung):
+        return make_scene({"journal": {**tables, "rung": rung}})
 
     assert effect.known_by(scene(known, "reduced"))
     assert effect.known_by(scene(unknown, "grid"))

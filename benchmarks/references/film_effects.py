@@ -24,16 +24,19 @@ from benchmarks.common import arguments, head, row, timed
 from loadflow.errors import ValidityWarning
 from loadflow.journal import (
     Contact,
+    Feet,
     Film,
     FilmHeat,
     GasMixture,
     Groove,
     Growth,
     Heat,
+    HousedShell,
     JournalBearing,
     LocalShell,
     Lubricant,
     Supply,
+    ThickShell,
     Turbulence,
 )
 from loadflow.quantities import percent
@@ -78,9 +81,13 @@ COMBINED: dict[str, tuple[dict[str, Any], bool, float]] = {
 
 WARM = Heat("iso-vg-68", inlet_temperature=318.15)
 OVER_AREA = FilmHeat("iso-vg-68", inlet_temperature=318.15)
+ALL_OVER = {
+    "thick shell": ThickShell(outer_diameter=3.6, modulus=2.1e11),
+    "housing": HousedShell(outer_diameter=3.4, support=Feet(height=2.0, width=1.0)),
+}
 GROOVES = tuple(Groove(angle, length=1.575, pressure=0.6e6) for angle in (np.pi / 2, -np.pi / 2))
 ALONE: dict[str, tuple[str, ...]] = {
-    "nothing": ("tilt", "contact", "shell", "turbulence everywhere", "supply"),
+    "nothing": ("tilt", "contact", "shell", *ALL_OVER, "turbulence everywhere", "supply"),
     "heat": ("heat, growth",),
 }
 WARMED = ("heat", "heat over the area")
@@ -88,6 +95,7 @@ WARMED = ("heat", "heat over the area")
 """Effects whose cost is told, by that without which their time is told."""
 
 COSTED = COMBINED | {
+    **{name: ({"shell": shell}, False, 1.0) for name, shell in ALL_OVER.items()},
     "supply": ({"supply": Supply(GROOVES)}, False, 1.0),
     "heat": ({"lubricant": None, "heat": WARM}, False, 1.0),
     "heat over the area": ({"lubricant": None, "heat": OVER_AREA}, False, 1.0),

@@ -21,7 +21,7 @@ from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
-from loadflow.stages.film_past import past_of
+from loadflow.stages.film_past import TURNS, past_of
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
 from loadflow.stages.kept_samples import stretch
@@ -262,6 +262,8 @@ def _orbits(
         if scene.shaft.coupled:  # a shaft in its films begins with a past of its own, and forgets
             turn = 2.0 * np.pi / max(float(np.abs(film["speed"][begin])), SLOWEST)
             lead = min(begin - formed, int(FORGOTTEN * turn / (step * taken)))
+        elif not (recent := remembered(film, begin, step * taken)).all():
+            lead = min(begin - formed, recent.size)
         begin -= lead
         place = film["eccentricity"].values[begin]
         steps = min(STEPS + lead, film.sizes["sample"] - begin)
@@ -281,6 +283,18 @@ def _orbits(
             theirs = dict.fromkeys(FILM, np.nan)
         found = extremes_of_orbit(ours, known)
         yield from _rows(stage, "journal.film", where, against, found, theirs)
+
+
+def remembered(film: xr.Dataset, begin: int, step: float) -> np.ndarray:
+    """Whether the rotor runs (n,) in the samples before `begin` that a film remembers there.
+
+    Those of its last `TURNS` turns: as fast as the shaft turns, oil flows to where it was lacking.
+    Samples are every `step`, s.
+    """
+    angle = np.cumsum(np.abs(film["speed"].values[:begin][::-1])) * step
+    remembered = int(np.searchsorted(angle, 2.0 * np.pi * TURNS))
+    runs = film["running"].values if "running" in film else np.ones(film.sizes["sample"])
+    return runs[begin - remembered : begin] > 0
 
 
 def _not_solved(stage: str, where: str, touching: float, options: Journal) -> Difference:

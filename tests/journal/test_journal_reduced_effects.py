@@ -523,3 +523,14 @@ def test_an_end_that_touches_has_no_film_and_the_grid_is_not_asked(monkeypatch):
     assert not found.converged
     assert found.residual > 0.6
     assert np.isnan([found.minimum_film, found.eccentricity_ratio, found.friction_power]).all()
+
+
+def test_a_path_begins_where_asperities_hold_the_shaft_in_a_shell_beyond_its_bore():
+    """No film of a rigid bore is near that; it is found by way of lesser eccentricities."""
+    contact = Contact(AsperityContact(roughness=5.6e-7, contact_modulus=46.5e9, factor=1e-3))
+    film = replace(REDUCED, grid=(120, 20), shell=LocalShell(2.06e-12), contact=contact)
+    place, load = np.array([1.0044 * BEARING.clearance, 0.0]), np.tile([1.57e6, 0.0], (5, 1))
+    path = BEARING.orbit(0.05 * np.arange(5), load, 0.0763, film, start=place)
+    assert path["eccentricity_ratio"][0] == pytest.approx(1.0044)
+    assert 1e-7 < path["minimum_film"][0] < 2e-6  # on asperities of 0.56 µm
+    assert path["contact_force"][0].max() > 0.0

@@ -55,6 +55,7 @@ _BEGUN = (0.0, 0.0, np.inf)  # steps of the past of a first state
 _NO_SLOPES = np.zeros((2, 0, 0))
 STRETCH = 24  # samples that take more points together
 _TRIES = 3  # of a first film, each from where the last one left the shaft
+_LEAST_STEP = 1.0 / 1024  # of an eccentricity, as a share of it, below which its film is given up
 LONG = 240  # samples that go on together with few; calls of fewer cost
 
 
@@ -165,6 +166,8 @@ class March:
         if self.start is not None:
             place[:2] = self.start
         found = self.solve(level, place, size, 0, 1, most)
+        if not found and self.start is not None:
+            found = self._approaches(level, place, most)
         if not found and self.start is None and model.film.give > 0.0:
             found = self._creeps(level, place, most)
         if not found and self.start is None:
@@ -177,6 +180,26 @@ class March:
                     break
         bend = self.lines[0, 2:]
         return _first(level, work.u, place, bend) if found else None
+
+    def _approaches(self, level: int, place: Array, most: int) -> bool:
+        """Whether the film at the start is found by way of lesser eccentricities; moves `place`.
+
+        In a shell that gives way the start may lie beyond the bore, where no film is near that of
+        a rigid one.
+        """
+        work, known = self.drive.film(level).work, self.drive.film(level).cold()
+        share, step, spent = 0.0, 0.5, self.rows[0, at.ITERATIONS]
+        while share < 1.0 and step >= _LEAST_STEP:
+            ahead = min(share + step, 1.0)
+            work.u[:], place[:2] = known, ahead * np.asarray(self.start)
+            found = self.solve(level, place, 0, 0, 1, most)
+            spent += self.rows[0, at.ITERATIONS]
+            if found:
+                share, known = ahead, work.u.copy()
+            else:
+                step *= 0.5
+        self.rows[0, at.ITERATIONS] = spent
+        return share == 1.0
 
     def _creeps(self, level: int, place: Array, most: int) -> bool:
         """Whether the first film is found from faster or standing ones; moves `place`."""

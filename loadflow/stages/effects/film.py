@@ -15,7 +15,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floats_in_films
 from loadflow.stages.effects.clearances import closed_ends, thinnest_by
 from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Effect, Series, Sizes
-from loadflow.stages.effects.film_costs import cost_of
+from loadflow.stages.effects.film_costs import cost_of, cost_of_shell
 from loadflow.stages.effects.film_sizes import asperity_share, largest, worst
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.film_of_bearing import aligned
@@ -234,10 +234,15 @@ SHELL = Effect(
     indicator=_shell,
     out="no journal.shell",
     needs="a table journal.shell",
-    cost=cost_of("shell"),
+    cost=cost_of_shell,
     larger=no_bound_at_standstill,
     rungs=("grid", "reduced"),
-    partly=(("reduced", "any; one that gives way all over without contact"),),
+    partly=(
+        (
+            "reduced",
+            "any; one that gives way all over without contact, a matrix in a circular bore",
+        ),
+    ),
     own_kernels=True,
 )
 

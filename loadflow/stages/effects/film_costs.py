@@ -10,6 +10,7 @@ from loadflow.stages.stage import STEPS_PER_CASE
 COSTS = {
     "tilt": {"reduced": (2.6, 1.8), "grid": (3.7, 5.0)},
     "shell": {"reduced": (2.1, 1.5), "grid": (3.1, 3.1)},
+    "shell all over": {"reduced": (7.4, 8.1), "grid": (15.0, 19.0)},
     "contact": {"reduced": (2.3, 1.6), "grid": (1.8, 1.4)},
     "turbulence": {"reduced": (2.5, 2.7), "grid": (1.1, 1.1)},
     "supply": {"reduced": (3.9, 3.1), "grid": (1.2, 1.2)},
@@ -17,7 +18,8 @@ COSTS = {
 }
 """Time of a film with an effect over that without, at rest and in motion, by rung: measured by
 ``python -m benchmarks.references.film_effects`` and with ``--costs``; docs/journal.md. Two of them
-together cost more than their product on "grid", less on "reduced"."""
+together cost more than their product on "grid", less on "reduced". Of a shell that gives way all
+over it is the mean of a thick cylinder and a housing."""
 
 
 def cost_of(name: str) -> Callable[[Scene], float]:
@@ -36,6 +38,22 @@ def cost_of(name: str) -> Callable[[Scene], float]:
         return COSTS[name].get(journal.rung, (1.0, 1.0))[journal.in_motion]
 
     return cost
+
+
+def cost_of_shell(scene: Scene) -> float:
+    """Time of the films of a scene in its shell over that in a rigid one, as that gives way.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> from loadflow.stages.effects.film_costs import cost_of_shell
+    >>> shells = ({"kind": "local", "compliance": 1e-12},
+    ...           {"kind": "thick", "outer_diameter": 3.6, "modulus": 2.1e11})
+    >>> [cost_of_shell(make_scene({"journal": {"rung": "reduced", "shell": s}})) for s in shells]
+    [2.1, 7.4]
+    """
+    shell = scene.journal.shell
+    return cost_of("shell" if shell is None or shell.local else "shell all over")(scene)
 
 
 HEAT_COSTS = {
