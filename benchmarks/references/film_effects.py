@@ -94,7 +94,7 @@ WARMED = ("heat", "heat over the area")
 """What costs at rest as `ALONE`, and in motion before the first step."""
 """Effects whose cost is told, by that without which their time is told."""
 
-COSTED = COMBINED | {
+COSTED: dict[str, tuple[dict[str, Any], bool, float]] = COMBINED | {
     **{name: ({"shell": shell}, False, 1.0) for name, shell in ALL_OVER.items()},
     "supply": ({"supply": Supply(GROOVES)}, False, 1.0),
     "heat": ({"lubricant": None, "heat": WARM}, False, 1.0),
