@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import cube_file
 
 from loadflow.cube import open_cube
@@ -15,10 +16,14 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
+from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_words import _warm
 
 AIR = 288.15
+BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
+         "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
 COOLING = {"N": {"conductance": 12.0}, "N2": {"area": 4.0, "transfer": 20.0}}
 
 
@@ -99,6 +104,48 @@ def test_an_assumed_temperature_is_in_the_error_of_viscosity_ratio_and_modified_
     assert kappa[1] - kappa[0] == pytest.approx(0.4)
     assert life[1] - life[0] == pytest.approx(0.7)
     assert (kappa[2], life[2]) == (kappa[0], life[0])  # somebody knows it
+
+
+def test_a_measured_temperature_stays_without_heat_balances_and_has_no_error():
+    cooling = {"N": {"conductance": 12.0}, "N2": {"temperature": 330.0}}
+    scene = _of_two(cooling)
+    assert ROLLING_HEAT.is_on(scene)
+    without = switched(scene, ROLLING_HEAT, False)
+    assert not ROLLING_HEAT.is_on(without)
+    assert without.friction.cooling == {"N2": Cooling(temperature=330.0)}
+    measured = _of_two({place: {"temperature": 330.0} for place in ("N", "N2")})
+    assert not ROLLING_HEAT.concerns(measured)
+    assert (
+        _warm(measured.friction) == "N 57 °C as stated, N2 57 °C as stated, others 40 °C as stated"
+    )
+    assert "friction.ambient_temperature" in unused_keys(measured)
+
+
+def _of_two(cooling):
+    friction = {"cooling": cooling, "ambient_temperature": AIR}
+    data = {"name": "x", "results": ["rolling.life"], "friction": friction}
+    rolling = {"bearing": "N", "geometry": BALLS, "further": [{"bearing": "N2", "geometry": BALLS}]}
+    return make_scene(data | {"shaft": {"two_point": {}}, "rolling": rolling})
+
+
+def test_a_bearing_that_swings_has_its_measured_temperature():
+    cooling = {"Y": {"temperature": 330.0}}
+    scene = make_scene(
+        {
+            "name": "x", "results": ["rolling.life"], "shaft": {"two_point": {}, "yaw": {}},
+            "friction": {"conductance": 60.0, "cooling": cooling},
+            "rolling": {"bearing": "Y", "geometry": BALLS, "oscillation": {
+                "amplitude": 0.5, "frequency": 0.01}},
+        }
+    )  # fmt: skip
+    force, along = np.array([[1e5, 0.0, -1e6]]), np.ones(1)
+    loads = xr.Dataset(
+        {
+            "force": (("sample", "axis"), force), "moment": (("sample", "axis"), 0 * force),
+            "speed": ("sample", along), "weight": ("sample", along),
+        }
+    )  # fmt: skip
+    assert warm_bearing(scene, "Y", loads)[1] == 330.0
 
 
 def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():

@@ -17,6 +17,9 @@ _SUSPENSIONS = ("two_point", "three_point", "integrated", "direct_drive", "momen
 _KEYS = tuple(f"shaft.{name}" for name in _SUSPENSIONS)
 
 
+_ALIGNED = 1e-6
+"""Share of its film that the ends of a bearing take at least: coth x - 1/x is told from nothing."""
+
 _LOADS = "bearing load max", "radial force max", "bearing force DEL"
 
 
@@ -47,7 +50,8 @@ def _moments_of_films(at: Situation) -> float:
     Slices of a film carry the more the thinner they are, as exp(2 x s), s from -1/2 to 1/2 over the
     width, with x as in `closed_ends`: their force acts (coth x - 1/x)/2 of it off mid-plane.
     """
-    ends, found = closed_ends(at), 0.0
+    ends = {name: max(share, _ALIGNED) for name, share in closed_ends(at).items()}
+    found = 0.0
     for concept in at.scene.shaft.concepts:
         taken = [name for name in concept.bearings if name in ends and _takes(at.scene, name)]
         if not taken or len(concept.bearings) != 2:
