@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-import xarray as xr
 from synthetic import cube_file
 
 from loadflow.cube import open_cube
@@ -16,7 +15,6 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
-from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_words import _warm
@@ -126,26 +124,6 @@ def _of_two(cooling):
     data = {"name": "x", "results": ["rolling.life"], "friction": friction}
     rolling = {"bearing": "N", "geometry": BALLS, "further": [{"bearing": "N2", "geometry": BALLS}]}
     return make_scene(data | {"shaft": {"two_point": {}}, "rolling": rolling})
-
-
-def test_a_bearing_that_swings_has_its_measured_temperature():
-    cooling = {"Y": {"temperature": 330.0}}
-    scene = make_scene(
-        {
-            "name": "x", "results": ["rolling.life"], "shaft": {"two_point": {}, "yaw": {}},
-            "friction": {"conductance": 60.0, "cooling": cooling},
-            "rolling": {"bearing": "Y", "geometry": BALLS, "oscillation": {
-                "amplitude": 0.5, "frequency": 0.01}},
-        }
-    )  # fmt: skip
-    force, along = np.array([[1e5, 0.0, -1e6]]), np.ones(1)
-    loads = xr.Dataset(
-        {
-            "force": (("sample", "axis"), force), "moment": (("sample", "axis"), 0 * force),
-            "speed": ("sample", along), "weight": ("sample", along),
-        }
-    )  # fmt: skip
-    assert warm_bearing(scene, "Y", loads)[1] == 330.0
 
 
 def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():

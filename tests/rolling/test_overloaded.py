@@ -8,7 +8,14 @@ from synthetic import cube_file
 
 from loadflow.errors import SolverError
 from loadflow.planning.plan import make_plan
-from loadflow.rolling import RollerBearing, main_bearings
+from loadflow.rolling import (
+    CrossedRollerBearing,
+    RollerBearing,
+    RollerRaceways,
+    ThreeRowRollerBearing,
+    ToroidalRollerBearing,
+    main_bearings,
+)
 from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
@@ -71,6 +78,19 @@ def test_the_overload_is_that_of_iso_76():
     thrust = 0.44 / np.tan(0.3)  # Y₀ of two rows
     assert static_overload(leaning, capacity, 0.0, 0.0) == pytest.approx(1.0)
     assert static_overload(leaning, 0.0, capacity, 0.0) == pytest.approx(thrust)
+    barrels = ToroidalRollerBearing(
+        rollers=26, roller_diameter=0.15, roller_length=0.29, pitch_diameter=1.5, raceway_radius=1.8
+    )
+    assert static_overload(barrels, 2 * barrels.static_capacity, 0.0, 0.0) == pytest.approx(2.0)
+    crossed = CrossedRollerBearing(
+        rollers=60, roller_diameter=0.03, roller_length=0.03, pitch_diameter=1.0
+    )
+    assert static_overload(crossed, crossed.static_capacity, 0.0, 0.0) == pytest.approx(2.3)
+    row = RollerRaceways(
+        rollers=80, roller_diameter=0.03, roller_length=0.03, pitch_diameter=2.0, slices=20
+    )
+    three = ThreeRowRollerBearing(support=row, retaining=row, radial=row)
+    assert static_overload(three, 0.0, three.static_capacity, 0.0) == pytest.approx(1.0)
     ring = main_bearings("moment")["M"]
     load = static_overload(ring, 0.0, ring.static_capacity, 0.0)
     assert load == pytest.approx(1.0)

@@ -72,15 +72,14 @@ def static_overload(
     >>> float(static_overload(bearing, 2 * bearing.static_capacity, 0.0, 0.0))
     2.0
     """
-    angle = float(getattr(bearing, "nominal_angle", 0.0))
-    if bearing.kind in ("ball", "roller", "spherical"):
+    angle = float(getattr(bearing, "contact_angle", 0.0))  # of three rows one takes what is radial
+    if bearing.kind in ("slewing", "crossed", "three-row"):
+        size = bearing.pitch_diameter
+        load = static_load_slewing(radial, axial, moment, contact_angle=angle, pitch_diameter=size)
+    else:
         rows = getattr(bearing, "rows", 1)
         y0 = 0.22 * rows / math.tan(angle) if angle else 0.0
         load = static_load(radial, axial, 0.5 * rows, y0)
-    else:
-        size = bearing.pitch_diameter
-        lean = angle if bearing.kind == "slewing" else 0.0
-        load = static_load_slewing(radial, axial, moment, contact_angle=lean, pitch_diameter=size)
     return np.asarray(load / bearing.static_capacity)
 
 
