@@ -147,9 +147,9 @@ def warm_bearing(
     Bearings that swing, and those without a model of friction, have the temperature that the scene
     says. `answer`: see `loadflow.stages.rolling_at_work.at_work`.
     """
-    part, options = scene.rolling.bearings[name], scene.friction
+    part, options = scene.rolling.bearings[name], scene.friction.of(name)
     if part.geometry.friction_model is None or part.oscillation is not None:
-        options = options.model_copy(update={"conductance": None, "cooling": {}})
+        options = options.model_copy(update={"conductance": None})
     force, moment, speed, weight = (
         loads[what].transpose("sample", ...).values
         for what in ("force", "moment", "speed", "weight")
