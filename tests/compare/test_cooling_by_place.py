@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import cube_file
 
 from loadflow.cube import open_cube
@@ -15,6 +16,7 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
+from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_words import _warm
@@ -153,3 +155,30 @@ def test_a_cooling_where_no_rolling_bearing_stands_is_told():
     unused = unused_keys(scene)
     assert "friction.cooling.N3" in unused
     assert "friction.cooling.M" not in unused
+
+
+def test_a_bearing_that_swings_has_the_temperature_that_is_stated_for_it(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", seeds=(1,), steps=20)
+    swings = {"oscillation": {"amplitude": 0.1, "frequency": 0.1}}
+    stated = {"N": {"temperature": 330.0}, "N2": {"conductance": 30.0}}
+    geometry = {
+        "rollers": 20, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_diameter": 1.0,
+        "contact_angle": 0.15,
+    }  # fmt: skip
+    bearing = {"kind": "spherical", "geometry": geometry}
+    scene = make_scene(
+        {
+            "name": "x", "loads": {"files": [str(cube)]}, "results": ["rolling.life"],
+            "bearings": {"N": bearing | swings, "N2": bearing | swings},
+            "friction": {"cooling": stated, "conductance": 60.0, "temperature": 310.0},
+        }
+    )  # fmt: skip
+    few = xr.Dataset(
+        {
+            "force": (("sample", "axis"), [[0.0, 0.0, -1e5]]),
+            "moment": (("sample", "axis"), [[0.0, 0.0, 0.0]]),
+            "speed": ("sample", [1.0]),
+            "weight": ("sample", [1.0]),
+        }
+    )
+    assert [warm_bearing(scene, name, few)[1] for name in ("N", "N2")] == [330.0, 310.0]
