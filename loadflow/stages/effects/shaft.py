@@ -102,7 +102,7 @@ ELASTIC = Effect(
 def _at_rest(scene: Scene, concept: Concept) -> bool:
     """Whether a shaft is iterated with its bearings, not followed together with films in motion.
 
-    What that is worth is an effect of its own, tilt in the clearances.
+    What these are worth is an effect of its own, tilt in the clearances.
     """
     fed_back = {*concept.bearings} & {*scene.shaft.coupled}
     return bool(fed_back) and not move_together(scene.shaft, scene.journal, concept)
@@ -126,7 +126,10 @@ STIFFNESS = Effect(
     is_on=lambda scene: any(_at_rest(scene, concept) for concept in scene.shaft.concepts),
     switched=_given,
     indicator=_giving_way,
-    out="no support of the shaft takes its stiffness from a bearing",
+    out="no shaft is iterated with the stiffness of its bearings",
     needs='`supports` of the beam with stiffness = "journal" or "rolling"',
-    concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
+    concerns=lambda scene: any(
+        concept.beam is not None and not move_together(scene.shaft, scene.journal, concept)
+        for concept in scene.shaft.concepts
+    ),
 )
