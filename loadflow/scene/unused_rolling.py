@@ -121,8 +121,14 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
                 yield key, "the result rolling.friction is not wanted"
     stand = {part.bearing for part in every_rolling(scene)}
     for place in friction.cooling:
-        if place not in stand:
+        parts = [part for part in every_rolling(scene) if part.bearing == place]
+        if not parts:
             yield f"cooling.{place}", "no rolling bearing stands there, of a candidate neither"
+        elif "rolling.friction" not in scene.results and not (
+            friction.states(place) or any(part.balances_heat for part in parts)
+        ):
+            why = "it swings, or has no model of friction, and is as warm as stated"
+            yield f"cooling.{place}", why
     if not (friction.balances(stand) or mounted(scene)):
         yield "ambient_temperature", "no friction.conductance or cooling, no mounting of a bearing"
     elif not films and all(

@@ -182,3 +182,6 @@ def test_a_bearing_that_swings_has_the_temperature_that_is_stated_for_it(tmp_pat
         }
     )
     assert [warm_bearing(scene, name, few)[1] for name in ("N", "N2")] == [330.0, 310.0]
+    unused = unused_keys(scene)
+    assert "friction.cooling.N2" in unused
+    assert "friction.cooling.N" not in unused
