@@ -25,6 +25,7 @@ from loadflow.stages import bores, thrust
 from loadflow.stages.effects import clearances
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
 from loadflow.stages.effects.film import TILT
+from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
 from loadflow.stages.probes import Probe
@@ -323,6 +324,16 @@ def test_films_that_know_no_tilt_may_align_themselves_beside_a_key_for_tilt(rung
     assert not scene_of(self_aligning=True, **film).journal.at("N").tilt
     with pytest.raises(InputError, match="tilt"):
         scene_of(**film)
+
+
+def test_what_bearings_of_a_floating_shaft_give_way_by_is_told_as_tilt_alone():
+    taking = [one | {"takes_moment": True} for one in FLOATS]
+    floats = scene_of(taking, motion="transient", rung="reduced")
+    assert CLEARANCES.is_on(floats)
+    assert not STIFFNESS.concerns(floats)
+    at_rest = scene_of(taking, motion="quasi-static")
+    assert STIFFNESS.concerns(at_rest)
+    assert STIFFNESS.is_on(at_rest)
 
 
 def test_a_shaft_lies_straight_in_bearings_that_align_themselves():

@@ -178,7 +178,8 @@ class ConicalPair(ConicalFilms[PairResult]):
         if found.converged:
             return found
         more = between(assembly, chart, lambda x: self._started(assembly, x, speed), wanted)
-        found = search(assembly, chart, chain(more, starts[1:]), wanted, free, limits, _ALL)
+        others = chain(more, starts[1:] or [found])  # there may be none between the cones
+        found = search(assembly, chart, others, wanted, free, limits, _ALL)
         if found.converged:
             return found
         stepped = assembly.equilibrium(starts, wanted, free, limits)

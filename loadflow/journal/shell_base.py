@@ -16,5 +16,9 @@ class ElasticShell:
         """Whether both halves of the width give way alike."""
         return True
 
+    def symmetric_on(self, across: int) -> bool:
+        """Whether both halves of the width give way alike on so many cells of a film across."""
+        return self.symmetric
+
     def check_local(self, length: float) -> None:
         """Refuse a shell that is not as local as it claims under a pressure over `length`, m."""

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -22,6 +23,7 @@ from loadflow.numerics.fields import require
 from loadflow.numerics.matrix_file import digest_of, read_matrix
 from loadflow.tribology.hertz import effective_modulus
 
+_ALIKE = 1e-3  # difference of both halves of a matrix, over its largest number, that is let pass
 _LOCAL = 0.1  # deviation of a lining from the local law that is let pass
 
 
@@ -253,6 +255,22 @@ class MatrixShell(ElasticShell):
     def numbers(self) -> NDArray[np.float64]:
         """Influence coefficients (n, n), m/Pa."""
         return np.asarray(self.__dict__["_numbers"])
+
+    def symmetric_on(self, across: int) -> bool:
+        """Whether both halves of the width give way alike on so many cells of a film across."""
+        return _alike(self, across)
+
+
+@lru_cache(maxsize=8)
+def _alike(shell: MatrixShell, across: int) -> bool:
+    """Whether a matrix is the same seen from the other end; one of other cells is refused later."""
+    numbers = shell.numbers
+    if len(numbers) % across:
+        return True
+    around = len(numbers) // across
+    full = numbers.reshape(around, across, around, across)
+    apart = np.abs(full - full[:, ::-1, :, ::-1]).max()
+    return bool(apart <= _ALIKE * np.abs(full).max())
 
 
 Shell = LocalShell | LinedShell | ThickShell | MatrixShell | HousedShell | InfluenceShell

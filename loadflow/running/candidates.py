@@ -121,9 +121,9 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     if candidate.rolling is not None:
         results += (rolling := ["rolling.loads", "rolling.life"])
         update["rolling"] = candidate.rolling
-        cooled = base.friction.cooling.items()
-        own = {place: one for place, one in cooled if place in candidate.rolling.bearings}
-        update["friction"] = base.friction.model_copy(update={"cooling": own})
+        if cooled := base.friction.cooling:
+            own = {place: cooled[place] for place in cooled if place in candidate.rolling.bearings}
+            update["friction"] = base.friction.model_copy(update={"cooling": own})
         if isinstance(base.accuracy, dict):
             update["accuracy"] = _as_near(base, rolling)
     if candidate.thrust is not None:

@@ -273,6 +273,11 @@ class FurtherBearing(BaseModel):
         return self.geometry.element_inertia and self.rings == "rigid" and self.oscillation is None
 
     @property
+    def balances_heat(self) -> bool:
+        """Whether its friction warms it: one that swings, or has no model, is as warm as stated."""
+        return self.geometry.friction_model is not None and self.oscillation is None
+
+    @property
     def modelled(self) -> RollingBearing:
         """The geometry with its rollers in slices, or whole."""
         whole = self.roller_model == "whole"

@@ -137,6 +137,10 @@ class Friction(Section, BaseModel):
         own = self.cooling.get(place)
         return self.conductance if own is None else own.total
 
+    def states(self, place: str) -> bool:
+        """Whether a bearing has a temperature of its own, as measured."""
+        return place in self.cooling and self.cooling[place].temperature is not None
+
     def temperature_at(self, place: str) -> float:
         """Temperature that is stated for a bearing, K."""
         own = self.cooling.get(place)
@@ -152,6 +156,11 @@ class Friction(Section, BaseModel):
         return self.model_copy(
             update=own | {"conductance": self.conductance_at(place), "cooling": {}}
         )
+
+    def without_balance(self) -> Friction:
+        """Return the section with the stated temperatures alone."""
+        stated = {place: one for place, one in self.cooling.items() if self.states(place)}
+        return self.model_copy(update={"conductance": None, "cooling": stated})
 
     def warmed(self, change: Callable[[float], float]) -> Friction:
         """Return the section with all stated temperatures, K, changed."""

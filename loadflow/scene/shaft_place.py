@@ -99,9 +99,10 @@ def check_seats(shaft: Shaft, journal: Journal) -> None:
         if felt and not move_together(shaft, journal, concept):
             raise ValueError(
                 f"shaft: support of bearing {felt[0]} with takes_moment = true: what a seat holds "
-                "is followed where a shaft lies in two films, without pads or heat over the area; "
-                'give both its bearings supports of stiffness = "journal" and takes_moment = true, '
-                "and those that align themselves a seat, or leave out takes_moment"
+                "is followed where a shaft lies in two films, without tilting pads or heat over "
+                'the area; give both its bearings supports of stiffness = "journal" and '
+                "takes_moment = true, and those that align themselves a seat, or leave out "
+                "takes_moment"
             )
 
 

@@ -17,7 +17,7 @@ from loadflow.scene.results import USUAL
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section, idle_keys
 from loadflow.scene.shaft_place import seats_felt
-from loadflow.scene.unused_rolling import mounted, of_each_rolling, of_friction
+from loadflow.scene.unused_rolling import every_rolling, mounted, of_each_rolling, of_friction
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
 from loadflow.wind.cases import LOAD_CASES, STANDING, LoadCase, stands_or_starts
@@ -132,8 +132,7 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     heats = [journal.at(place).heat for journal in journals for place in journal.bearings]
     warm = [heat for heat in heats if heat is not None]
     rolls = scene.wants("rolling") or any(one.rolling is not None for one in others)
-    friction = scene.friction
-    cooled = friction.conductance is not None or friction.cooling
+    cooled = scene.friction.balances(part.bearing for part in every_rolling(scene))
     sheds = rolls and (bool(cooled) or mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):

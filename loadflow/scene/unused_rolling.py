@@ -86,11 +86,15 @@ def _of_rings(scene: Scene, part: FurtherBearing) -> Iterator[tuple[str, str]]:
             yield key, reason
 
 
+def every_rolling(scene: Scene) -> list[FurtherBearing]:
+    """Rolling bearings of the scene and of its candidates."""
+    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
+    return [part for rolling in (scene.rolling, *others) for part in rolling.bearings.values()]
+
+
 def mounted(scene: Scene) -> bool:
     """Whether a bearing of the scene, or of a candidate, has a clearance that follows its heat."""
-    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
-    every = (part for rolling in (scene.rolling, *others) for part in rolling.bearings.values())
-    return any(part.mounting is not None for part in every)
+    return any(part.mounting is not None for part in every_rolling(scene))
 
 
 _OF_COOLING = ("conductance", "cooling", "ambient_temperature")
@@ -104,10 +108,6 @@ _OF_CLEARANCE = ("temperature", "cooling", "ambient_temperature")
 """Keys of friction that the clearance of a mounted bearing reads."""
 
 
-def _balances(part: FurtherBearing) -> bool:
-    return part.geometry.friction_model is not None and part.oscillation is None
-
-
 def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield the keys of friction that the rest of a scene leaves without effect, and why."""
     friction, bearings = scene.friction, scene.rolling.geometries.values()
@@ -119,16 +119,21 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in type(friction).model_fields:
             if key not in (*vibrate, *rated, *warm):
                 yield key, "the result rolling.friction is not wanted"
-    others = (one.rolling for one in scene.candidates.values() if one.rolling is not None)
-    stand = {*scene.rolling.bearings}.union(*(rolling.bearings for rolling in others))
+    stand = {part.bearing for part in every_rolling(scene)}
     for place in friction.cooling:
-        if place not in stand:
+        parts = [part for part in every_rolling(scene) if part.bearing == place]
+        if not parts:
             yield f"cooling.{place}", "no rolling bearing stands there, of a candidate neither"
+        elif "rolling.friction" not in scene.results and not (
+            friction.states(place) or any(part.balances_heat for part in parts)
+        ):
+            why = "it swings, or has no model of friction, and is as warm as stated"
+            yield f"cooling.{place}", why
     if not (friction.balances(stand) or mounted(scene)):
         yield "ambient_temperature", "no friction.conductance or cooling, no mounting of a bearing"
     elif not films and all(
-        friction.temperature_at(place) != friction.temperature
-        or (_balances(part) and friction.conductance_at(place) is not None)
+        friction.states(place)
+        or (part.balances_heat and friction.conductance_at(place) is not None)
         for place, part in scene.rolling.bearings.items()
     ):
         yield "temperature", "with a conductance each bearing has that of its heat balance"

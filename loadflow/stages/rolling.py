@@ -148,8 +148,8 @@ def warm_bearing(
     says. `answer`: see `loadflow.stages.rolling_at_work.at_work`.
     """
     part, options = scene.rolling.bearings[name], scene.friction
-    if part.geometry.friction_model is None or part.oscillation is not None:
-        options = options.model_copy(update={"conductance": None, "cooling": {}})
+    if not part.balances_heat:
+        options = options.without_balance()
     force, moment, speed, weight = (
         loads[what].transpose("sample", ...).values
         for what in ("force", "moment", "speed", "weight")

@@ -279,6 +279,15 @@ def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float | 
     return count * warm_films(still.journal) * films
 
 
+def _clearance_follows_heat(scene: Scene) -> bool:
+    """Whether a rolling bearing that is fed back has the clearance of its stated temperature."""
+    parts = scene.rolling.bearings
+    return any(
+        support.stiffness == "rolling" and parts[name].mounting is not None
+        for name, support in scene.shaft.coupled.items()
+    )
+
+
 STAGE = Stage(
     "shaft",
     run=bearing_loads,
@@ -287,6 +296,7 @@ STAGE = Stage(
         *("shaft", "turbine"),
         *(("journal", "rolling") if scene.shaft.coupled else ()),
         *(("journal",) if turned_bores(scene) and not scene.shaft.coupled else ()),
+        *(("friction",) if _clearance_follows_heat(scene) else ()),
     ),
     models=(
         Rungs("shaft", section="shaft", key=shaft_key, text=_described, exact=lambda scene: True),

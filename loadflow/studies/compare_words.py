@@ -142,6 +142,8 @@ def _warm(options: Friction) -> str:
         cooled.append(f"others {stated:.0f} °C as stated")
     if not cooled:
         return f"{stated:.0f} °C"
+    if options.conductance is None and not options.balances(options.cooling):
+        return ", ".join(cooled)
     return f"as warm as its heat balance has it, {', '.join(cooled)}; the air {air:.0f} °C"
 
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import cube_file
 
 from loadflow.cube import open_cube
@@ -15,10 +16,14 @@ from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
+from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
+from loadflow.studies.compare_words import _warm
 
 AIR = 288.15
+BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
+         "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
 COOLING = {"N": {"conductance": 12.0}, "N2": {"area": 4.0, "transfer": 20.0}}
 
 
@@ -101,6 +106,28 @@ def test_an_assumed_temperature_is_in_the_error_of_viscosity_ratio_and_modified_
     assert (kappa[2], life[2]) == (kappa[0], life[0])  # somebody knows it
 
 
+def test_a_measured_temperature_stays_without_heat_balances_and_has_no_error():
+    cooling = {"N": {"conductance": 12.0}, "N2": {"temperature": 330.0}}
+    scene = _of_two(cooling)
+    assert ROLLING_HEAT.is_on(scene)
+    without = switched(scene, ROLLING_HEAT, False)
+    assert not ROLLING_HEAT.is_on(without)
+    assert without.friction.cooling == {"N2": Cooling(temperature=330.0)}
+    measured = _of_two({place: {"temperature": 330.0} for place in ("N", "N2")})
+    assert not ROLLING_HEAT.concerns(measured)
+    assert (
+        _warm(measured.friction) == "N 57 °C as stated, N2 57 °C as stated, others 40 °C as stated"
+    )
+    assert "friction.ambient_temperature" in unused_keys(measured)
+
+
+def _of_two(cooling):
+    friction = {"cooling": cooling, "ambient_temperature": AIR}
+    data = {"name": "x", "results": ["rolling.life"], "friction": friction}
+    rolling = {"bearing": "N", "geometry": BALLS, "further": [{"bearing": "N2", "geometry": BALLS}]}
+    return make_scene(data | {"shaft": {"two_point": {}}, "rolling": rolling})
+
+
 def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():
     friction = Friction(conductance=60.0, cooling={"N": Cooling(temperature=330.0)})
     assert friction.conductance_at("N") is None
@@ -128,3 +155,33 @@ def test_a_cooling_where_no_rolling_bearing_stands_is_told():
     unused = unused_keys(scene)
     assert "friction.cooling.N3" in unused
     assert "friction.cooling.M" not in unused
+
+
+def test_a_bearing_that_swings_has_the_temperature_that_is_stated_for_it(tmp_path):
+    cube = cube_file(tmp_path / "loads.h5", seeds=(1,), steps=20)
+    swings = {"oscillation": {"amplitude": 0.1, "frequency": 0.1}}
+    stated = {"N": {"temperature": 330.0}, "N2": {"conductance": 30.0}}
+    geometry = {
+        "rollers": 20, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_diameter": 1.0,
+        "contact_angle": 0.15,
+    }  # fmt: skip
+    bearing = {"kind": "spherical", "geometry": geometry}
+    scene = make_scene(
+        {
+            "name": "x", "loads": {"files": [str(cube)]}, "results": ["rolling.life"],
+            "bearings": {"N": bearing | swings, "N2": bearing | swings},
+            "friction": {"cooling": stated, "conductance": 60.0, "temperature": 310.0},
+        }
+    )  # fmt: skip
+    few = xr.Dataset(
+        {
+            "force": (("sample", "axis"), [[0.0, 0.0, -1e5]]),
+            "moment": (("sample", "axis"), [[0.0, 0.0, 0.0]]),
+            "speed": ("sample", [1.0]),
+            "weight": ("sample", [1.0]),
+        }
+    )
+    assert [warm_bearing(scene, name, few)[1] for name in ("N", "N2")] == [330.0, 310.0]
+    unused = unused_keys(scene)
+    assert "friction.cooling.N2" in unused
+    assert "friction.cooling.N" not in unused

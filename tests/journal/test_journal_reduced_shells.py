@@ -8,6 +8,7 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.journal import (
     Contact,
+    Control,
     Feet,
     Film,
     Flange,
@@ -29,6 +30,8 @@ from loadflow.journal import (
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.gap_mesh import shaped_mesh
 from loadflow.journal.models import reduced
+from loadflow.journal.models.composed_shell import _split
+from loadflow.journal.models.shared_path import Lying, follow_shared
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -76,6 +79,20 @@ def test_a_film_in_a_shell_that_gives_way_all_over_is_that_of_the_grid(shell, al
     assert few.shell_deformation == pytest.approx(fine.shell_deformation, rel=0.03)
 
 
+def test_modes_of_a_housing_are_all_that_it_gives():
+    mesh = shaped_mesh(0.5, (72, 16), False, False, (), (), ())
+    peak = np.maximum(np.cos(mesh.angle), 0.0)[:, None] ** 6  # where it stands on its feet
+    pressure = 1e7 * peak * (1.0 - (mesh.z / mesh.z_edges[-1]) ** 2)
+    for shell in (FEET, FLANGE):
+        compliance = compliance_of(shell, mesh, 0.1)
+        split = _split(compliance, mesh)
+        grown = np.einsum("kxz,k->xz", split.shapes, (split.pressed * pressure).sum(axis=(1, 2)))
+        wanted = compliance.growth(pressure)
+        np.testing.assert_allclose(
+            grown + split.local * pressure, wanted, atol=2e-3 * np.abs(wanted).max()
+        )
+
+
 def test_a_housing_from_its_file_is_the_housing(tmp_path, alone):
     housing_influence(FLANGE, SIZE["diameter"], SIZE["width"]).to_netcdf(tmp_path / "housing.nc")
     states = [
@@ -109,6 +126,20 @@ def test_the_influence_matrix_of_a_thick_cylinder_is_the_cylinder(alone):
     for name, most in zip((*NAMES, "shell_deformation"), (3e-3, 0.01, 5e-3, 2e-3, 0.02)):
         one, other = (float(getattr(state, name)) for state in states)
         assert one == pytest.approx(other, rel=most)
+
+
+def test_the_influence_matrix_of_a_flange_at_one_end_gives_way_at_that_end(alone):
+    mesh = shaped_mesh(0.5, (36, 8), False, False, (), (), ())
+    unit = np.eye(36 * 8).reshape(36 * 8, 36, 8)
+    numbers = compliance_of(FLANGE, mesh, 0.1).growth(unit).reshape(36 * 8, -1).T
+    for film, most in ((FILM, 1e-8), (REDUCED, 0.02)):
+        states = [
+            BEARING.equilibrium(LOAD, SPEED, replace(film, grid=(36, 8), shell=shell))
+            for shell in (FLANGE, MatrixShell(numbers))
+        ]
+        for name in NAMES:
+            one, other = (float(getattr(state, name)) for state in states)
+            assert one == pytest.approx(other, rel=most)
 
 
 @pytest.mark.parametrize("shell", [SOFT, FLANGE], ids=["thick", "flange"])
@@ -153,6 +184,23 @@ def test_a_path_in_a_shell_is_that_of_the_grid(shell, tilts):
     for name, most in zip(NAMES, (0.006, 0.015, 0.015, 0.005)):
         scale = np.abs(fine[name]).max()
         assert float(np.abs(few[name] - fine[name]).max()) <= most * scale
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("own", [0, 1])
+def test_a_shaft_moves_in_a_shell_at_one_bearing_and_a_rigid_one_at_the_other(own):
+    none, both = np.zeros((PATH.size, 2, 2)), np.zeros((2, 2, 2, 2))
+    apart = np.zeros(2, dtype=bool)  # neither film feels the other
+    lying = Lying(np.stack([SWING, SWING], axis=1), none, none, both, both, apart, np.full(2, 1e-8))
+    films = [replace(REDUCED, shell=SOFT if k == own else None) for k in range(2)]
+    limits = Control().limits(tolerance=1e-6, max_iterations=30)
+    speed = np.full(PATH.size, SPEED)
+    shared = follow_shared([BEARING, BEARING], films, PATH, speed, lying, limits, rests=True)
+    for film, found in zip(films, shared.paths):
+        alone = BEARING.orbit(PATH, SWING, SPEED, film)
+        for name in NAMES:
+            scale = np.abs(alone[name]).max()
+            assert float(np.abs(found[name] - alone[name]).max()) <= 0.01 * scale
 
 
 @pytest.mark.slow

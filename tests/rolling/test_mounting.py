@@ -9,6 +9,7 @@ import xarray as xr
 from pydantic import ValidationError
 
 from loadflow.errors import InputError, SolverError
+from loadflow.planning.plan import make_plan
 from loadflow.rolling import (
     BallBearing,
     CrossedRollerBearing,
@@ -27,6 +28,7 @@ from loadflow.rolling.friction import balanced_temperature
 from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.scene import make_scene
+from loadflow.scene.shaft import Shaft
 from loadflow.stages import rolling as stage
 from loadflow.tribology import lubricant
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
@@ -333,6 +335,20 @@ def test_the_heat_balance_of_a_bearing_sets_its_clearance():
     assert change == pytest.approx(-ALPHA * 0.95 * 0.4 * (temperature - 283.15), rel=0.1)
     hotter = scene(around, warm_inner, {"conductance": 50.0})
     assert stage.warm_bearing(hotter, "N2", loads())[0].geometry.clearance < part.geometry.clearance
+
+
+def test_a_shaft_is_solved_anew_where_the_clearance_of_its_bearing_follows_another_temperature():
+    def digests(**changed):
+        one = scene({}, {"inner_share": 1.2}, changed)
+        support = {"stiffness": "rolling"}
+        beam = {"supports": [{}, support]}
+        shaft = Shaft.model_validate({"two_point": {"beam": beam}})
+        told = make_plan(one.model_copy(update={"shaft": shaft})).steps
+        return {step.name: step.digest for step in told}
+
+    usual, warm = digests(), digests(temperature=333.15)
+    assert usual["loads"] == warm["loads"]
+    assert usual["shaft"] != warm["shaft"]
 
 
 def test_a_seat_within_the_raceway_is_refused_when_the_scene_is_read():

@@ -8,7 +8,15 @@ from synthetic import cube_file
 
 from loadflow.errors import SolverError
 from loadflow.planning.plan import make_plan
-from loadflow.rolling import RollerBearing, main_bearings
+from loadflow.rolling import (
+    BallBearing,
+    CrossedRollerBearing,
+    RollerBearing,
+    RollerRaceways,
+    ThreeRowRollerBearing,
+    ToroidalRollerBearing,
+    main_bearings,
+)
 from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
@@ -76,3 +84,23 @@ def test_the_overload_is_that_of_iso_76():
     assert load == pytest.approx(1.0)
     half = ring.static_capacity * ring.pitch_diameter / 8
     assert static_overload(ring, 0.0, 0.0, half) == pytest.approx(0.5)
+
+
+def test_bearings_of_every_kind_have_an_overload():
+    one = {"roller_diameter": 0.04, "roller_length": 0.038, "pitch_diameter": 2.6}
+    crossed = CrossedRollerBearing(rollers=180, **one)
+    row = RollerRaceways(rollers=180, **one)
+    three = ThreeRowRollerBearing(support=row, retaining=row, radial=row)
+    barrels = ToroidalRollerBearing(
+        rollers=26, roller_diameter=0.15, roller_length=0.29, pitch_diameter=1.5,
+        raceway_radius=1.8, clearance=4e-4,
+    )  # fmt: skip
+    groove = {"ball_diameter": 0.04, "pitch_diameter": 0.5, "groove_radius": 0.0208, "balls": 16}
+    deep, angular = BallBearing(**groove), BallBearing(**groove, contact_angle=np.radians(30))
+    for bearing, radial, axial in (
+        (crossed, 2.3, 1.0), (three, 0.0, 1.0), (barrels, 1.0, 0.0), (deep, 1.0, 0.5),
+        (angular, 1.0, 0.33),
+    ):  # fmt: skip
+        size = bearing.static_capacity
+        assert static_overload(bearing, size, 0.0, 0.0) == pytest.approx(radial)
+        assert static_overload(bearing, 0.0, size, 0.0) == pytest.approx(axial)

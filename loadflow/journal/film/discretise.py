@@ -102,7 +102,7 @@ def shaped_film(
     pressure = options.edge_pressure if pressure is None else pressure
     options.check_oil(pressure)
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
-    half = half and (options.shell is None or options.shell.symmetric)
+    half = half and (options.shell is None or options.shell.symmetric_on(options.cells[1]))
     grid = options.cells if half or law.smooth or options.grid else FULL_GRID
     graded = options.grading == "graded" or (options.grading == "auto" and not law.smooth)
     turns, places = relief_marks(bore.relief, bore.radius, bore.width)

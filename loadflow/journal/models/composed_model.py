@@ -434,7 +434,8 @@ def rubs(rows: Array, force: Array) -> NDArray[np.bool_]:
 
 def _whole(options: Film, line: Line) -> bool:
     """Whether both halves of the width differ."""
-    return not (line.straight and (options.shell is None or options.shell.symmetric))
+    shell = options.shell
+    return not (line.straight and (shell is None or shell.symmetric_on(options.cells[1])))
 
 
 def _regime(bearing: JournalGeometry, options: Film) -> Regime:

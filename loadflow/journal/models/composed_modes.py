@@ -30,7 +30,7 @@ class Modes(NamedTuple):
     pressed: Array
 
 
-NO_MODES = Modes(False, aligned(np.zeros((1, 1, LANES))), aligned(np.zeros((1, 1, LANES))))
+NO_MODES = Modes(False, aligned(np.zeros((0, 1, LANES))), aligned(np.zeros((0, 1, LANES))))
 _KRYLOV = 60  # steps of GMRES at most
 
 

@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 _ACROSS = 16  # cells across half of the width; a matrix is of the cells that it was given for
 _SMOOTH = 8  # polynomials across that tell a pressure from one that gives way locally
+_TRACE = 1e-3  # of the stiffest mode of a housing
 _LEFT_OUT = 2e-3  # of the softest mode, under a pressure that falls with the square of its waves
 
 
@@ -102,10 +103,14 @@ def _split(compliance: Compliance, mesh: Mesh) -> _Split:
 
 @_split.register
 def _modal(compliance: Modal, mesh: Mesh) -> _Split:
-    """Modes of a housing; those that both halves of the width do not share are none on a half."""
+    """Modes of a housing; those that both halves of the width do not share are none on a half.
+
+    Modes are all that it gives. Films take a shell for elastic where it gives way locally, too: by
+    a trace.
+    """
     sizes = np.einsum("kxz,kxz->k", compliance.pressed, compliance.shapes)
     kept = np.flatnonzero(sizes > _LEFT_OUT * 1e-3 * sizes.max())
-    local = 0.5 * float(sizes[kept].min())
+    local = _TRACE * float(sizes[kept].min())
     return _Split(local, compliance.shapes[kept], compliance.pressed[kept])
 
 

@@ -22,7 +22,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._shared_loops import COORDINATES, SHAFT, Shared, Side, follow
-from loadflow.journal.models.composed_film import Composed
+from loadflow.journal.models.composed_film import Composed, ShelledFilm
 from loadflow.journal.models.composed_model import (
     LEVELS,
     ComposedFilm,
@@ -233,8 +233,10 @@ class _March:
             model.units.raise_scale(float(most[k]))
             ring = model.film.ring._replace(scale=model.units.scale)
             models.append(replace(model, film=model.film._replace(ring=ring)))
-        if len({type(model.film) for model in models}) > 1:  # the loop knows two of one kind
-            models = [replace(model, film=Composed(*model.film)) for model in models]
+        kinds = {type(model.film) for model in models}
+        if len(kinds) > 1:  # the loop knows two of one kind, that of all their effects
+            kind = ShelledFilm if ShelledFilm in kinds else Composed
+            models = [replace(model, film=kind(*model.film)) for model in models]
         return models
 
     def begins(self) -> None:

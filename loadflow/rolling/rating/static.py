@@ -19,6 +19,8 @@ Array = NDArray[np.float64]
 HOURS_20_YEARS = 20 * 365.25 * 24  # L10h of IEC 61400-1
 LIFE_SOURCE = "IEC 61400-1 as quoted by [Jonuschies 2015], (1.10): 20 years"
 STATIC_RATING = 1.0  # static rating over the design load
+_BALLS = (5, 10, 15, 20, 25, 30, 35, 40, 45), (0.52, 0.5, 0.46, 0.42, 0.38, 0.33, 0.29, 0.26, 0.22)
+"""Contact angle of a row of balls, °, and its Y₀ (ISO 76)."""
 STATIC_SOURCE = "IEC 61400-1 as quoted by [Jonuschies 2015], (1.11)"
 
 
@@ -51,9 +53,9 @@ def static_overload(
 ) -> Array:
     """Static equivalent load over the static capacity of a bearing: above 1 it is overloaded.
 
-    With the factors of ISO 76: of radial bearings P₀ = F_r at least, and the more of rollers that
-    lean; of thrust bearings as `static_load_slewing`. Which row or roller carries most is left to
-    `RollingEquilibrium.static_safety`.
+    With the factors X₀ and Y₀ of ISO 76: of radial bearings P₀ = F_r at least; of slewing bearings
+    as `static_load_slewing`, those of three rows by their thrust rows. Which row or roller carries
+    most is left to `RollingEquilibrium.static_safety`.
 
     Parameters
     ----------
@@ -72,16 +74,23 @@ def static_overload(
     >>> float(static_overload(bearing, 2 * bearing.static_capacity, 0.0, 0.0))
     2.0
     """
-    angle = float(getattr(bearing, "nominal_angle", 0.0))
-    if bearing.kind in ("ball", "roller", "spherical"):
-        rows = getattr(bearing, "rows", 1)
-        y0 = 0.22 * rows / math.tan(angle) if angle else 0.0
-        load = static_load(radial, axial, 0.5 * rows, y0)
-    else:
+    if bearing.rated_axially:
+        lean = 0.0 if bearing.kind == "three-row" else bearing.nominal_angle  # its thrust rows
         size = bearing.pitch_diameter
-        lean = angle if bearing.kind == "slewing" else 0.0
         load = static_load_slewing(radial, axial, moment, contact_angle=lean, pitch_diameter=size)
+    else:
+        load = static_load(radial, axial, *_radial_factors(bearing))
     return np.asarray(load / bearing.static_capacity)
+
+
+def _radial_factors(bearing: RollingBearing) -> tuple[float, float]:
+    """X₀ and Y₀ of a radial bearing, ISO 76."""
+    angle, rows = bearing.nominal_angle, getattr(bearing, "rows", 1)
+    if bearing.kind == "ball":
+        if angle == 0.0:
+            return 0.6, 0.5
+        return 0.5 * rows, rows * float(np.interp(math.degrees(angle), *_BALLS))
+    return 0.5 * rows, 0.22 * rows / math.tan(angle) if angle else 0.0
 
 
 def verdicts(

@@ -20,7 +20,6 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.rolling import SECTION_SIDE
 from loadflow.stages.effects.situation import BearingLoad, Floats, Situation
-from loadflow.stages.stage import with_settings
 from loadflow.tribology import lubricant
 
 TRANSFER = 15.0
@@ -39,12 +38,12 @@ def _heat(at: Situation) -> Sizes:
     """What the temperature that is assumed is off of κ, modified life, Λ and friction.
 
     Against that at which Palmgren's friction under the mean load leaves by the cooling stated, or
-    else by the surface of a housing that is assumed. Nothing where the shaft stands.
+    else by the surface of a housing that is assumed. Nothing where the shaft stands, or where
+    somebody has measured it.
     """
     found: list[Sizes] = []
-    for name, part in at.scene.rolling.bearings.items():
-        if _balances(part) and at.turns.any():
-            found.append(_of_bearing(at.scene.friction, part, at.bearings[name], at.speed))
+    for name, part in _unknown(at.scene).items() if at.turns.any() else ():
+        found.append(_of_bearing(at.scene.friction, part, at.bearings[name], at.speed))
     names = {name for one in found for name in one}
     return {name: max(one.get(name, 0.0) for one in found) for name in sorted(names)}
 
@@ -113,26 +112,25 @@ def _assumed(bearing: Any) -> float:
     return TRANSFER * float(area)
 
 
-def _balances(part: FurtherBearing) -> bool:
-    return part.geometry.friction_model is not None and part.oscillation is None
-
-
-def _places(scene: Scene) -> list[str]:
-    """Bearings whose temperature is neither balanced nor stated otherwise than by default."""
-    return [
-        place
+def _unknown(scene: Scene) -> dict[str, FurtherBearing]:
+    """Bearings, by place, that have no temperature of their own: a balance tells it, or nobody."""
+    return {
+        place: part
         for place, part in scene.rolling.bearings.items()
-        if _balances(part)
-        and place not in scene.friction.cooling
-        and scene.friction.conductance is None
-    ]
+        if part.balances_heat and not scene.friction.states(place)
+    }
+
+
+def _all_balanced(scene: Scene) -> bool:
+    places = _unknown(scene)
+    return len(scene.friction.balances(places)) == len(places)
 
 
 def _switched(scene: Scene, on: bool) -> Scene | None:
     """The scene with the heat balances that it states, or without any."""
     if on:
-        return None if _places(scene) else scene
-    return with_settings(scene, "friction", {"conductance": None, "cooling": {}})
+        return scene if _all_balanced(scene) else None
+    return scene.model_copy(update={"friction": scene.friction.without_balance()})
 
 
 HEAT_COSTS = {"rollers": 6.0, "balls": 30.0}
@@ -153,7 +151,7 @@ ROLLING_HEAT = Effect(
     "heat of rolling bearings",
     model="rolling",
     keys=("friction.conductance", "friction.cooling"),
-    is_on=lambda scene: not _places(scene),
+    is_on=_all_balanced,
     switched=_switched,
     indicator=_heat,
     larger=lambda scene: UNKNOWN,  # nobody knows a housing that is not stated
@@ -162,7 +160,7 @@ ROLLING_HEAT = Effect(
     needs="friction.conductance, or a table friction.cooling of each bearing",
     concerns=lambda scene: (
         (scene.wants("rolling") or "rolling.friction" in scene.results)
-        and any(map(_balances, scene.rolling.bearings.values()))
+        and bool(_unknown(scene))
         and "temperature" not in scene.friction.changed
     ),
     probe="friction",

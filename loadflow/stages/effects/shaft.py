@@ -17,6 +17,9 @@ _SUSPENSIONS = ("two_point", "three_point", "integrated", "direct_drive", "momen
 _KEYS = tuple(f"shaft.{name}" for name in _SUSPENSIONS)
 
 
+_ALIGNED = 1e-6
+"""Share of its film that the ends of a bearing take at least: coth x - 1/x is told from nothing."""
+
 _LOADS = "bearing load max", "radial force max", "bearing force DEL"
 
 
@@ -47,7 +50,8 @@ def _moments_of_films(at: Situation) -> float:
     Slices of a film carry the more the thinner they are, as exp(2 x s), s from -1/2 to 1/2 over the
     width, with x as in `closed_ends`: their force acts (coth x - 1/x)/2 of it off mid-plane.
     """
-    ends, found = closed_ends(at), 0.0
+    ends = {name: max(share, _ALIGNED) for name, share in closed_ends(at).items()}
+    found = 0.0
     for concept in at.scene.shaft.concepts:
         taken = [name for name in concept.bearings if name in ends and _takes(at.scene, name)]
         if not taken or len(concept.bearings) != 2:
@@ -98,7 +102,7 @@ ELASTIC = Effect(
 def _at_rest(scene: Scene, concept: Concept) -> bool:
     """Whether a shaft is iterated with its bearings, not followed together with films in motion.
 
-    What that is worth is an effect of its own, tilt in the clearances.
+    What these are worth is an effect of its own, tilt in the clearances.
     """
     fed_back = {*concept.bearings} & {*scene.shaft.coupled}
     return bool(fed_back) and not move_together(scene.shaft, scene.journal, concept)
@@ -122,7 +126,10 @@ STIFFNESS = Effect(
     is_on=lambda scene: any(_at_rest(scene, concept) for concept in scene.shaft.concepts),
     switched=_given,
     indicator=_giving_way,
-    out="no support of the shaft takes its stiffness from a bearing",
+    out="no shaft is iterated with the stiffness of its bearings",
     needs='`supports` of the beam with stiffness = "journal" or "rolling"',
-    concerns=lambda scene: any(concept.beam is not None for concept in scene.shaft.concepts),
+    concerns=lambda scene: any(
+        concept.beam is not None and not move_together(scene.shaft, scene.journal, concept)
+        for concept in scene.shaft.concepts
+    ),
 )
