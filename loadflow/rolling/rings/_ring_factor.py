@@ -4,6 +4,10 @@ The matrix (row, wide) holds the upper half of the tangent, of the modes first, 
 rigid unknowns, filled up with zeros to a multiple of `LANES` both ways; what stands below the
 diagonal may be anything. Rows lie along each other, so that eight of them go side by side. On the
 diagonal the factor has the inverse of its pivots.
+
+Orders of sums are written out here. Each kernel that calls another holds a copy of it, and where a
+compiler may reorder sums, it does so by copy: a process that compiles takes another copy than one
+that reads the cache, and rounds differently.
 """
 
 from __future__ import annotations
