@@ -279,6 +279,11 @@ def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float | 
     return count * warm_films(still.journal) * films
 
 
+def _warms(scene: Scene) -> bool:
+    """Whether the clearance of a rolling bearing follows the temperature of its oil."""
+    return any(part.mounting is not None for part in scene.rolling.bearings.values())
+
+
 STAGE = Stage(
     "shaft",
     run=bearing_loads,
@@ -286,6 +291,7 @@ STAGE = Stage(
     sections=lambda scene: (
         *("shaft", "turbine"),
         *(("journal", "rolling") if scene.shaft.coupled else ()),
+        *(("friction",) if scene.shaft.coupled and _warms(scene) else ()),
         *(("journal",) if turned_bores(scene) and not scene.shaft.coupled else ()),
     ),
     models=(
