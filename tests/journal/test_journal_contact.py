@@ -285,7 +285,7 @@ def test_flow_factors_of_patterns_along_and_across():
             {"shell": ThickShell(0.4, 2e11), "rung": "reduced", "inlet": None},
             {},
             "contact = .* gives way all over",
-        ),  # fmt: skip
+        ),
         ({}, {"shape": TiltingPads(4, np.radians(60.0))}, "contact = .* pads that tilt"),
         ({"rung": "map"}, {}, "rung = 'map' .* contact of asperities"),
     ],
