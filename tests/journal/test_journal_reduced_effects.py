@@ -18,7 +18,6 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     Reynolds,
-    ThickShell,
 )
 from loadflow.journal.models import composed_model, composed_path, reduced
 from loadflow.journal.models.width_modes import half_width_nodes, lobatto, whole_width
@@ -366,9 +365,6 @@ def test_stiffness_on_a_yielding_shell_is_the_slope_of_the_load():
 
 
 def test_what_it_does_not_know_is_named():
-    thick = ThickShell(outer_diameter=3.5, modulus=2.1e11)
-    with pytest.raises(InputError, match=r"rung = 'reduced' .* an elastic shell"):
-        BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=thick))
     with pytest.raises(InputError, match="thickness, poisson_ratio"):
         BEARING.equilibrium(FORCE, SPEED, replace(REDUCED, shell=LinedShell(0.5, 1e9, 0.45)))
 

@@ -272,7 +272,7 @@ def test_what_is_refused():
         return bearing.equilibrium(LOAD, SPEED, shell=shell, **FILM | more)
 
     with pytest.raises(InputError, match=r"rung = .*elastic shell"):
-        ask(ThickShell(3.6, 2e11), rung="reduced")
+        ask(ThickShell(3.6, 2e11), rung="map")
     with pytest.raises(InputError, match="pads"):
         ask(SOFT, JournalBearing(3.0, 2.25, 0.5e-3, shape=TiltingPads(4, 1.2)))
     with pytest.raises(InputError, match="outer_diameter"):
