@@ -29,9 +29,7 @@ from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft import Shaft
-from loadflow.shaft import Beam, BearingSupport
 from loadflow.stages import rolling as stage
-from loadflow.stages import shaft
 from loadflow.tribology import lubricant
 from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON
 
@@ -367,12 +365,3 @@ def test_fields_without_effect_are_told():
     apart = Mounting(row_distance="seats", housing_share=0.5)
     assert dict(unused_of(apart, PAIR)) == {}
     assert [*dict(unused_of(apart, ROW))] == ["row_distance", "housing_share"]
-
-
-def test_a_shaft_on_bearings_whose_clearance_is_warm_is_solved_anew_for_another_oil():
-    given = scene({}, {})
-    assert "friction" not in shaft.STAGE.sections(given)
-    support = BearingSupport(radial=1e9), BearingSupport(stiffness="rolling")
-    two = replace(given.shaft.two_point, beam=Beam(supports=support))
-    felt = given.model_copy(update={"shaft": given.shaft.model_copy(update={"two_point": two})})
-    assert "friction" in shaft.STAGE.sections(felt)
