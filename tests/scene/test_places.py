@@ -68,9 +68,9 @@ def test_journal_bearings_may_differ_but_for_how_they_are_modelled():
     written = tomllib.loads(moving.to_toml())
     assert "motion" not in written["bearings"]["N2"]
     assert make_scene(written) == moving
-    thick = {"kind": "thick", "outer_diameter": 1.2, "modulus": 1e11}
+    supply = {"grooves": [{"angle": 3.1, "length": 0.1, "pressure": 2e5, "shape": "circle"}]}
     with pytest.raises(InputError, match="reduced"):
-        scene_with(N=journal(1.2, rung="reduced"), N2=journal(0.8, shell=thick))
+        scene_with(N=journal(1.2, rung="reduced"), N2=journal(0.8, supply=supply))
 
 
 def test_the_two_forms_give_the_same_scene():
