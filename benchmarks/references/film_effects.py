@@ -90,9 +90,10 @@ ALONE: dict[str, tuple[str, ...]] = {
     "nothing": ("tilt", "contact", "shell", *ALL_OVER, "turbulence everywhere", "supply"),
     "heat": ("heat, growth",),
 }
+"""Effects whose cost is told, by that without which their time is told."""
+
 WARMED = ("heat", "heat over the area")
 """What costs at rest as `ALONE`, and in motion before the first step."""
-"""Effects whose cost is told, by that without which their time is told."""
 
 COSTED: dict[str, tuple[dict[str, Any], bool, float]] = COMBINED | {
     **{name: ({"shell": shell}, False, 1.0) for name, shell in ALL_OVER.items()},

@@ -223,5 +223,5 @@ def _extremes(
 
 
 def _check(check: Mapping[str, Any]) -> dict[str, str]:
-    change = "no answer" if check["change"] is None else percent(check["change"])
+    change = "not solved" if check["change"] is None else percent(check["change"])
     return {**{key: str(check[key]) for key in ("stage", "quantity", "against")}, "change": change}

@@ -31,7 +31,6 @@ class Modes(NamedTuple):
 
 
 NO_MODES = Modes(False, aligned(np.zeros((0, 1, LANES))), aligned(np.zeros((0, 1, LANES))))
-_KRYLOV = 60  # steps of GMRES at most
 
 
 class ModesWork(NamedTuple):
@@ -48,7 +47,7 @@ class ModesWork(NamedTuple):
     row : array (L,)
         Numbers that are taken one by one.
     basis, system, turns, right : array (s + 1, k), (s + 1, s), (2, s), (s + 1,)
-        Of s steps of GMRES.
+        Of steps of GMRES: s = k, after which nothing is left.
     """
 
     amplitude: Array
@@ -66,11 +65,10 @@ class ModesWork(NamedTuple):
 def make_modes_work(modes: Modes, shape: tuple[int, int]) -> ModesWork:
     """Allocate the work arrays of modes on cells and lanes of a `shape`."""
     count = len(modes.shapes)
-    steps = min(count, _KRYLOV)
     return ModesWork(
         amplitude=np.zeros(count), other=np.zeros(count), growth=aligned(np.zeros(shape)),
         change=aligned(np.zeros(shape)), column=aligned(np.zeros((1, *shape))),
-        row=aligned(np.zeros((1, LANES)))[0], basis=np.zeros((steps + 1, count)),
-        system=np.zeros((steps + 1, steps)), turns=np.zeros((2, steps)),
-        right=np.zeros(steps + 1),
+        row=aligned(np.zeros((1, LANES)))[0], basis=np.zeros((count + 1, count)),
+        system=np.zeros((count + 1, count)), turns=np.zeros((2, count)),
+        right=np.zeros(count + 1),
     )  # fmt: skip

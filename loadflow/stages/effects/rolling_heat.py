@@ -49,7 +49,11 @@ def _heat(at: Situation) -> Sizes:
 
 
 def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, speed: Floats) -> Sizes:
-    """Sizes of one bearing; those of the point where each is largest."""
+    """Sizes of one bearing; those of the point where each is largest.
+
+    One that is out of balance up to `HOTTEST` counts as so hot: its sizes are the least that they
+    may be.
+    """
     bearing: Any = part.geometry
     oil, turns = lubricant(options.lubricant), np.abs(speed) > 0
     own = _Friction(bearing, load, speed, turns)
