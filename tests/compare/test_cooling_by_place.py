@@ -5,14 +5,12 @@ import pytest
 import xarray as xr
 from synthetic import cube_file
 
-from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.planning.accuracy import errors_beside
 from loadflow.planning.effects import Estimates, switched
-from loadflow.running.comparison import compare
 from loadflow.scene.cases import list_cases
 from loadflow.scene.friction import Cooling, Friction
-from loadflow.scene.scene import make_scene, read_scene
+from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
@@ -28,20 +26,9 @@ COOLING = {"N": {"conductance": 12.0}, "N2": {"area": 4.0, "transfer": 20.0}}
 
 
 @pytest.fixture(scope="module")
-def cooled(tmp_path_factory):
-    cube = cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", steps=200)
-    data = {
-        "name": "cooled",
-        "loads": {"files": [str(cube)]},
-        "candidates": {"two-spherical": {}},
-        "friction": {"cooling": COOLING, "ambient_temperature": AIR},
-        "as_built": {"roughness": 0.0, "alignment": 0.0, "clearance": 0.0, "viscosity": 0.0},
-    }
-    found = compare(make_scene(data), out=tmp_path_factory.mktemp("runs"))
-    one = found.comparison.candidates[0]
-    folder = found.path / one.folder
-    table = open_cube(folder / "result.h5")["rolling"].to_dataset().load()
-    return folder, read_scene(folder / "scene.toml"), table, one.numbers, found.comparison.facts
+def cooled(cooled_run):
+    friction = {"cooling": COOLING, "ambient_temperature": AIR}
+    return cooled_run(candidates={"two-spherical": {}}, friction=friction)
 
 
 def test_each_bearing_sheds_its_losses_by_its_own_cooling(cooled):

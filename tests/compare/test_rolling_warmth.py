@@ -5,12 +5,8 @@ import math
 import numpy as np
 import pytest
 import xarray as xr
-from synthetic import cube_file
 
-from loadflow.cube import open_cube
-from loadflow.running.comparison import compare
 from loadflow.scene.friction import Friction
-from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_factor import grown
 from loadflow.studies.compare_friction import rolling_losses
@@ -21,22 +17,11 @@ COOLING, AIR = 40.0, 288.15
 
 
 @pytest.fixture(scope="module")
-def cooled(tmp_path_factory):
+def cooled(cooled_run):
     """Folder, scene and table of a run whose bearing finds its temperature, and what is told."""
-    cube = cube_file(tmp_path_factory.mktemp("cube") / "loads.h5", steps=200)
-    data = {
-        "name": "cooled",
-        "loads": {"files": [str(cube)]},
-        "shaft": {"moment": {}},
-        "candidates": {"double-row-tapered": {}},
-        "friction": {"conductance": COOLING, "ambient_temperature": AIR},
-        "as_built": {"roughness": 0.0, "alignment": 0.0, "clearance": 0.0, "viscosity": 0.0},
-    }
-    found = compare(make_scene(data), out=tmp_path_factory.mktemp("runs"))
-    one = found.comparison.candidates[0]
-    folder = found.path / one.folder
-    table = open_cube(folder / "result.h5")["rolling"].to_dataset().load()
-    return folder, read_scene(folder / "scene.toml"), table, one.numbers
+    friction = {"conductance": COOLING, "ambient_temperature": AIR}
+    sections = {"shaft": {"moment": {}}, "candidates": {"double-row-tapered": {}}}
+    return cooled_run(friction=friction, **sections)[:4]
 
 
 def test_losses_of_a_comparison_are_what_the_cooling_carries_off(cooled):

@@ -7,7 +7,7 @@ import pytest
 
 from loadflow.journal import Contact, Film, GasMixture, JournalBearing, LocalShell, Lubricant
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed_creep, composed_rest, grid, reduced
+from loadflow.journal.models import composed_creep, composed_rest, grid
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_model import build
@@ -22,12 +22,6 @@ GRID = Film(
 )  # fmt: skip
 FILM = replace(GRID, rung="reduced")
 TILTED = {"tilt": (1e-5, -2e-5)}
-
-
-@pytest.fixture
-def alone(monkeypatch):
-    """No help by the grid."""
-    monkeypatch.setattr(reduced, "solve_on_grid", lambda *rows: None)
 
 
 @pytest.mark.parametrize("line", [{}, TILTED], ids=["aligned", "tilted"])

@@ -18,7 +18,6 @@ from loadflow.journal import (
     Reynolds,
     Supply,
 )
-from loadflow.journal.models import reduced
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -35,16 +34,6 @@ FILM = Film(Lubricant(0.03), GasMixture(5e4), 1.5e5, FED, shell=SHELL, grid=(144
 REDUCED = replace(FILM, rung="reduced", grid=(72, 20))
 ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 NAMES = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "supply_flow")
-
-
-@pytest.fixture
-def alone(monkeypatch):
-    """The rung itself: what it does not find it may not take from the grid."""
-
-    def refused(*given):
-        raise AssertionError("the grid is asked")
-
-    monkeypatch.setattr(reduced, "solve_on_grid", refused)
 
 
 @pytest.mark.parametrize("law", [GasMixture(5e4), Reynolds(), MassConserving()],

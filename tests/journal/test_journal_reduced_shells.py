@@ -29,7 +29,6 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.gap_mesh import shaped_mesh
-from loadflow.journal.models import reduced
 from loadflow.journal.models.composed_shell import _split
 from loadflow.journal.models.shared_path import Lying, follow_shared
 from loadflow.tribology import AsperityContact
@@ -45,16 +44,6 @@ FLANGE = HousedShell(
 FILM = Film(Lubricant(0.03), GasMixture(5e4), 1.5e5, shell=SOFT, grid=(144, 40), inlet=None)
 REDUCED = replace(FILM, rung="reduced", grid=(144, 20))
 NAMES = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
-
-
-@pytest.fixture
-def alone(monkeypatch):
-    """The rung itself: what it does not find it may not take from the grid."""
-
-    def refused(*given):
-        raise AssertionError("the grid is asked")
-
-    monkeypatch.setattr(reduced, "solve_on_grid", refused)
 
 
 def pair(bearing=BEARING, **words):
