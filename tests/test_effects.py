@@ -152,8 +152,6 @@ def test_an_effect_is_in_or_out_as_it_is_switched(effect, cube):
 
 GROOVE = {"angle": 3.14, "length": 0.5, "pressure": 6e5}
 CIRCLE = {"supply": {"grooves": [GROOVE | {"shape": "circle"}]}}
-THICK = {"shell": {"kind": "thick", "outer_diameter": 4.0, "modulus": 2.1e11}}
-ROUGH = {"contact": {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}}
 
 
 @pytest.mark.parametrize(
@@ -165,9 +163,8 @@ ROUGH = {"contact": {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, 
             CIRCLE,
             "rectangular ones, each on one segment",
         ),
-        (film.SHELL, THICK, THICK | ROUGH, "all over without contact"),
     ],
-    ids=["supply", "shell"],
+    ids=["supply"],
 )
 def test_a_rung_that_knows_a_part_of_an_effect_is_listed_with_that_part(
     effect, known, unknown, said

@@ -240,7 +240,7 @@ SHELL = Effect(
     partly=(
         (
             "reduced",
-            "any; one that gives way all over without contact, a matrix in a circular bore",
+            "any; a matrix in a circular bore",
         ),
     ),
     own_kernels=True,
