@@ -19,7 +19,7 @@ from threadpoolctl import threadpool_limits
 import loadflow
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.choice import can_refine
+from loadflow.planning.choice import can_refine, rungs_up
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.pilot import Questions, pilot
 from loadflow.planning.plan import Plan, make_plan
@@ -228,10 +228,11 @@ def _run(
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
         record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
-        higher = check.to_refine(tree, partial(can_refine, scene, plan.scene))
+        can, rungs = partial(can_refine, scene, plan.scene), partial(rungs_up, plan.scene)
+        higher = check.to_refine(tree, can, rungs)
         if not higher:
             break
-        log.info("not accurate enough, better models of: %s", ", ".join(higher))
+        log.info("not accurate enough, better models of: %s", ", ".join(dict.fromkeys(higher)))
         refined = [*refined, *higher]
         overwrite = True  # the parts of the coarser models are this run's own
     if not profile:

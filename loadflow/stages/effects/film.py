@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.data import gains
 from loadflow.journal import Turbulence
+from loadflow.scene.cases import design_load_cases
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import floats_in_films
@@ -22,7 +23,7 @@ from loadflow.stages.film_of_bearing import aligned
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import always_turns, carried_throughout
-from loadflow.wind.cases import STANDING, load_case
+from loadflow.wind.cases import starts_or_stops
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
@@ -96,10 +97,7 @@ ANSWERS = ("eccentricity ratio", "minimum film", "maximum pressure", "friction p
 
 def _starts_or_stops(scene: Scene) -> bool:
     """Whether the rotor comes from standstill, or to it, in some load case."""
-    if scene.loads.source == "files":
-        return False
-    events = (load_case(dlc).events for dlc in scene.loads.dlcs)
-    return any(one != "none" and one not in STANDING for some in events for one in some)
+    return any(map(starts_or_stops, design_load_cases(scene)))
 
 
 def no_bound_at_standstill(scene: Scene) -> float:
