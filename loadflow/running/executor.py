@@ -28,7 +28,6 @@ from threading import Thread
 from typing import Any, Protocol, TypeVar
 
 from loadflow.errors import InputError, LoadflowError, in_a_line
-from loadflow.planning.pilot import in_turn
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -100,6 +99,8 @@ class _Here:
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
     ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        from loadflow.planning.pilot import in_turn  # with all that a plan needs: late
+
         return in_turn(work, items)
 
 
