@@ -396,7 +396,9 @@ def _all_on(
         return together, best
     together = scene
     for effect in effects:  # one by one: which of them cannot be?
-        together = switched(together, effect, False) or together
+        left = switched(together, effect, False)
+        if left is not None and switched(left, effect, True) is not None:  # not a stated table
+            together = left
     best = tried(answers, together)
     for effect in effects:
         more = switched(together, effect, True)
