@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from math import isnan
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -243,6 +244,8 @@ def _largest(sizes: Any) -> str:
     """Quantity that an effect moves most, and by how much."""
     if not sizes:
         return "-"
+    if untold := [quantity for quantity, size in sizes.items() if isnan(size)]:
+        return f"{untold[0]} not known"
     quantity = max(sizes, key=sizes.get)
     return f"{quantity} {percent(sizes[quantity])}" if sizes[quantity] else "nothing"
 

@@ -248,7 +248,8 @@ def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[
     least = min(scene.allowed(result) for result in scene.results)
     for effect in concerned(chosen, _stages(chosen)):
         sizes = known.sizes(effect).values()
-        matters = not sizes or max(sizes) > WORTH * least or effect.is_on(scene)
+        little = bool(sizes) and all(size <= WORTH * least for size in sizes)  # NaN is none
+        matters = not little or effect.is_on(scene)
         both = switched(chosen, effect, not effect.is_on(chosen)) is not None
         if matters and both and effect.probed in PROBES:
             yield effect
@@ -399,7 +400,9 @@ def _all_on(
         return together, best
     together = scene
     for effect in effects:  # one by one: which of them cannot be?
-        together = switched(together, effect, False) or together
+        left = switched(together, effect, False)
+        if left is not None and switched(left, effect, True) is not None:  # not a stated table
+            together = left
     best = tried(answers, together)
     for effect in effects:
         more = switched(together, effect, True)

@@ -192,7 +192,7 @@ def missing(key: str, number: Number) -> dict[str, str]:
     nothing = "it is 0, of which there is no share"
     if math.isnan(number.error):
         left = "" if number.value else nothing
-        found["models"] = left or about.no_error or "the ladder has not measured one of its models"
+        found["models"] = left or about.no_error or "a model of it was not measured"
     if math.isnan(number.tolerance_low):
         whole = "it is whole" if number.value == about.top else ""
         left = whole if number.value else nothing

@@ -295,7 +295,7 @@ class _Loads:
 
         Returns the steps of ways that led nowhere.
         """
-        one, told = (self.force[n : n + 1], self.lines[n : n + 1]), 0
+        one, told = (self.loads[n : n + 1], self.lines[n : n + 1]), 0
         creep = Creep(self.model, *one, self.control, COLD, standing_states(1))
         for place in creep.places(float(self.speed[n])):
             yield Start(place, spent=creep.spent - told)
