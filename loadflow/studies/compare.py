@@ -50,7 +50,15 @@ from loadflow.studies.compare_result import (
 from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
-from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
+from loadflow.studies.compare_words import (
+    bearings,
+    conclusion,
+    drawn,
+    facts,
+    kind_of,
+    references,
+    reservations,
+)
 from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
@@ -87,6 +95,7 @@ def compared(
     return Comparison(
         name=scene.name,
         conclusion=conclusion(order, failures),
+        reservations=reservations(order),
         candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
         shaft=drawn(scene, {part["place"] for one in order for part in one.bearings}),
@@ -142,7 +151,8 @@ def _numbers(
     yield "load_factor", Number(
         margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
         holds=None if math.isnan(margin.factor) else margin.factor >= 1,
-        case=margin.case, time=margin.time, place=margin.place, note=_governed(margin),
+        case=margin.case, time=margin.time, place=margin.place,
+        note=f"governed by {_governed(margin)}" if margin.governs else _governed(margin),
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
