@@ -62,7 +62,7 @@ from loadflow.studies.compare_words import (
 from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
-from loadflow.studies.wear_bands import with_error
+from loadflow.studies.wear_bands import with_error, with_production
 from loadflow.verdict import Verdict, from_dataset
 
 _OF_CONES = "at rest and at one temperature, which the error by models does not count"
@@ -207,7 +207,9 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
     yield "pump", replace(pump, error=error)
     yield "mixed_time", mixed_time(run, table, share, groups)
-    yield "wear", with_error(run, wear(run.scene, _bores(run), table, groups))
+    bores = _bores(run)
+    worn = with_production(run, table, bores, wear(run.scene, bores, table, groups))
+    yield "wear", with_error(run, worn)
     yield from _lost(run, table, table["lost_power"], "")
 
 
