@@ -200,11 +200,12 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     yield "film_pressure", against(pressure, verdicts, "largest film pressure", 1e-6)
     share = shares_of(run, table)
     flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
-    none = "" if flow.any() else "no oil leaves the film"
+    collar = "without that of the collar" if "thrust" in run.tables else ""
+    told = _together("" if flow.any() else "no oil leaves the film", collar)
     error = error_of(run, "journal.film", "side flow")
-    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", none), error=error)
+    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", told), error=error)
     power, note = supply_power(table)
-    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
+    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", _together(note, collar))
     yield "pump", replace(pump, error=error)
     yield "mixed_time", mixed_time(run, table, share, groups)
     bores = _bores(run)

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import tomllib
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -314,6 +315,19 @@ def test_the_page_says_the_conclusion_and_draws_front_and_map(found):
         assert link.startswith("#") or (found.path / link).exists(), link
     data = json.loads((found.path / "design.json").read_text(encoding="utf-8"))
     assert len(data["designs"]) == len(found.designs.points)
+
+
+def test_a_best_design_at_an_end_of_its_range_says_so(found):
+    """Beyond it may be a better one, which no one has looked at."""
+    axes = found.designs.space.axes
+    middle = np.array([0.5 * (axis.low + axis.high) for axis in axes])
+    assert replace(found.designs, best=middle).at_ends == ()
+    last = middle.copy()
+    last[0] = axes[0].high - 0.01 * (axes[0].high - axes[0].low)
+    there = replace(found.designs, best=last)
+    assert there.at_ends == (axes[0].key,)
+    assert f"At an end of its range: {axes[0].key.replace('geometry.', '')}." in there.conclusion
+    assert replace(found.designs, best=None).at_ends == ()
 
 
 @pytest.mark.slow
