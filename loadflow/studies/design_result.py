@@ -403,7 +403,7 @@ def scene_with_bearings(
 ) -> str:
     """The scene with other bearings, as TOML that begins with `words`."""
     data = scene.model_dump(mode="json", exclude_unset=True, exclude_none=True)
-    for part in ("candidates", "design", "journal", "rolling", "results"):
+    for part in ("candidates", "design", "journal", "thrust", "rolling", "results"):
         data.pop(part, None)
     data["name"] = name
     if friction:
