@@ -236,8 +236,9 @@ class Comparison:
     ----------
     name : str
         Of the scene.
-    conclusion : str
-        One sentence, and one with reservations where there are any.
+    conclusion, reservations : str
+        One sentence; what speaks against candidates that hold their limits, empty where nothing
+        does.
     candidates : tuple of Judged
         By `Judged.rank`.
     facts : dict
@@ -252,6 +253,7 @@ class Comparison:
 
     name: str
     conclusion: str
+    reservations: str
     candidates: tuple[Judged, ...]
     facts: dict[str, str]
     shaft: list[dict[str, Any]]
@@ -263,6 +265,7 @@ class Comparison:
         return {
             "name": self.name,
             "conclusion": self.conclusion,
+            "reservations": self.reservations,
             "facts": self.facts,
             "quantities": named_quantities(),
             "candidates": [one.as_dict() for one in self.candidates],
