@@ -31,7 +31,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime import Lifetime, check_per_year
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message
+from loadflow.scene.messages import beside_bearings, message
 from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
@@ -379,7 +379,8 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
         return scene
     except ValidationError as error:
-        raise InputError(message(error, source, origins(data), Scene)) from error
+        told = message(error, source, origins(data), Scene)
+        raise InputError(told + beside_bearings(error, data, source, Scene)) from error
 
 
 def former_sections(path: str | Path) -> list[str]:

@@ -492,6 +492,21 @@ def test_cores_are_counted_on_systems_without_affinity(monkeypatch):
     assert usable_cores() == os.cpu_count()
 
 
+@pytest.mark.parametrize(("system", "most"), [("win32", 61), ("linux", 96)])
+def test_windows_has_no_more_processes_than_it_can_wait_for(system, most, monkeypatch):
+    class Idle:
+        def __init__(self, workers):
+            self.workers = workers
+
+        def kill(self):
+            pass
+
+    monkeypatch.setattr(f"{usable_cores.__module__}._Processes", Idle)
+    monkeypatch.setattr(sys, "platform", system)
+    with executor(96, None) as where:
+        assert where.workers == most
+
+
 def test_the_log_of_a_run_is_in_its_folder(finished):
     told = (finished / "runs/small/run.log").read_text()
     assert "2 load cases, 0 of them finished" in told
