@@ -109,6 +109,11 @@ def edge_contact(
     max_iterations : int
         Steps allowed.
 
+    Returns
+    -------
+    EdgeContact
+        Pressure over the contact, force of each slice, and the approach.
+
     Raises
     ------
     InputError

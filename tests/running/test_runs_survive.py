@@ -21,7 +21,8 @@ from loadflow.running.folder import MANIFEST, read_manifest, refinements
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.runner import run
-from loadflow.scene.scene import Scene, with_name
+from loadflow.scene.changed import with_name
+from loadflow.scene.scene import Scene
 from loadflow.storage import check_name
 
 HERE = Path(__file__).parent

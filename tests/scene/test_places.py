@@ -11,8 +11,9 @@ from loadflow.cli import main
 from loadflow.errors import FormerVersionWarning, InputError
 from loadflow.rolling import SlewingBearing, SphericalRollerBearing, ToroidalRollerBearing
 from loadflow.scene.candidates import candidates_of, machine_names
+from loadflow.scene.changed import with_loads
 from loadflow.scene.places import PLACE_KINDS, places_of, sections_of
-from loadflow.scene.scene import make_scene, read_scene, with_loads
+from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.schema import json_schema
 from loadflow.scene.written import SCENE
 
