@@ -44,6 +44,7 @@ READABLE = {
     "h": (1 / HOURS_PER_YEAR, "years"),
     "rad/s": (30 / math.pi, "1/min"),
     "rad": (180 / math.pi, "°"),
+    "W/m^2": (1e-3, "kW/m²"),
     "m^3/s": (6e4, "l/min"),
     "m3/s": (6e4, "l/min"),  # of files of former versions
     "megarevolution": (1.0, "Mrev"),

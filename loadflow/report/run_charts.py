@@ -64,14 +64,14 @@ def film_chart(
     """
     order = np.argsort(samples["time"].values, kind="stable")
     panels = []
-    for name, units, at in (
-        ("eccentricity_ratio", None, level),
-        ("minimum_film", "µm", None),
-        ("maximum_pressure", None, None),
+    for name, short, units, at in (  # a long name has no room beside a frame
+        ("eccentricity_ratio", "eccentricity ratio", None, level),
+        ("minimum_film", "smallest film", "µm", None),
+        ("maximum_pressure", "largest pressure", None, None),
     ):
         values, unit = readable(samples[name], units)
         said = samples[name].attrs["long_name"]
-        panels.append(Panel(_with_unit(said, unit), {said: values[order]}, at))
+        panels.append(Panel(_with_unit(short, unit), {said: values[order]}, at))
     reduced = samples.attrs.get("motion") == "quasi-static"
     label = "time, s (reduced series)" if reduced else "time, s"
     return Chart(caption, label, samples["time"].values[order], panels, fold, count)

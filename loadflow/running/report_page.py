@@ -374,7 +374,7 @@ def _check_section(check: xr.Dataset) -> Section:
     bad = frozenset(map(int, np.flatnonzero(doubtful)))
     text = (
         "A few load cases of this run, solved again by better models. Marked: more than the "
-        f"accuracy asked for, or {WARN:.0%} where none is, and films that no better model has."
+        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model has."
     )
     return Section("Check", text, [Table("", heads, rows, bad)])
 
