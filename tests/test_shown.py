@@ -44,7 +44,9 @@ from loadflow.rolling import (
     RingSections,
     RollerBearing,
     SlewingBearing,
+    Transient,
     axial_expansion,
+    edge_contact,
 )
 from loadflow.studies.statistics import statistic_records
 from loadflow.tribology import AsperityContact, lubricant
@@ -244,6 +246,8 @@ def results():
         ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)),
         ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)).friction([5.0, 10.0, 20.0], GREASED),
         axial_expansion(RING, [5e4, 1e5], rings),
+        edge_contact(ROLLERS, 2e3, cells=(24, 16), tolerance=1e-4),
+        Transient(np.array([0.0, 0.1]), np.full((2, 5), 1e-5), np.array([0.0, 3e3]), 1e-9),
     ]
     return {type(one).__name__: one for one in found}
 
@@ -284,6 +288,16 @@ def test_every_public_result_shows_draws_and_labels_itself():
         assert data.data_vars, name
         for variable, values in data.data_vars.items():
             assert {"units", "long_name"} <= {*values.attrs}, (name, variable)
+
+
+def test_a_contact_along_a_roller_is_drawn_as_it_was_solved():
+    found = edge_contact(ROLLERS, 2e3, cells=(24, 16), tolerance=1e-4)
+    data = found.to_dataset()
+    cell = np.diff(found.along)[0] * np.diff(found.across)[0]
+    assert float(data["pressure"].sum()) * cell == pytest.approx(2e3, rel=1e-3)
+    area, along = found.plot().axes[:2]
+    assert area.collections[0].get_array().max() == pytest.approx(found.maximum_pressure / 1e6)
+    assert along.lines[0].get_ydata().max() == pytest.approx(found.maximum_pressure / 1e6)
 
 
 def test_the_friction_of_a_bearing_is_drawn_over_speed_as_its_dataset_has_it():
