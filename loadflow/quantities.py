@@ -44,6 +44,7 @@ READABLE = {
     "h": (1 / HOURS_PER_YEAR, "years"),
     "rad/s": (30 / math.pi, "1/min"),
     "rad": (180 / math.pi, "°"),
+    "W/m^2": (1e-3, "kW/m²"),
     "m^3/s": (6e4, "l/min"),
     "m3/s": (6e4, "l/min"),  # of files of former versions
     "megarevolution": (1.0, "Mrev"),
@@ -101,6 +102,18 @@ def scale_of(units: str) -> tuple[float, str]:
     ((273.15, '°C'), (0.0, 'N'))
     """
     return (CELSIUS, "°C") if units == "K" else (0.0, units)
+
+
+def four_digits(value: float) -> str:
+    """Return a number with four digits, written out up to ten million.
+
+    Examples
+    --------
+    >>> four_digits(0.0123456), four_digits(13394.2), four_digits(2.5e9), four_digits(-10000.0)
+    ('0.01235', '13390', '2.5e+09', '-10000')
+    """
+    rounded = float(f"{value:.4g}")
+    return f"{rounded:.0f}" if 1e4 <= abs(rounded) < 1e7 else f"{value:.4g}"
 
 
 def load_cases(count: int) -> str:

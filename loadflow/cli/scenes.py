@@ -43,7 +43,8 @@ LoadFiles = Annotated[
 
 def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     """Read a scene, with other load files and under another name if they are given."""
-    from loadflow.scene.scene import read_scene, with_loads, with_name
+    from loadflow.scene.changed import with_loads, with_name
+    from loadflow.scene.scene import read_scene
 
     scene = read_scene(path)
     if loads or any(value is not None for value in reading.values()):

@@ -10,6 +10,7 @@ import asyncio
 import logging
 import os
 import signal
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
@@ -68,6 +69,11 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
+def _most_processes() -> int:
+    """Processes that a pool may have: Windows waits for 63 things at once, of which two are its."""
+    return 61 if sys.platform == "win32" else sys.maxsize
+
+
 @contextmanager
 def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
     """Yield where to work; no process of it is left when the block ends, however it ends.
@@ -81,7 +87,7 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
         with _client(scheduler) as client:
             yield _Cluster(client, scheduler)
     elif workers > 1:
-        processes = _Processes(workers)
+        processes = _Processes(min(workers, _most_processes()))
         try:
             yield processes
         finally:
