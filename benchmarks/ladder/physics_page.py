@@ -103,7 +103,7 @@ def scene_table(found: list[dict[str, Any]]) -> str:
             if size > TINY:
                 split[effect["kept"]].append(f"{effect['name']}: {largest(effect['size'])}")
             elif not effect["kept"] and effect["why"].startswith(("load ", "orbit ")):
-                split[False].append(f"{effect['name']}: the shaft touches the bearing ends")
+                split[False].append(f"{effect['name']}: {NO_ANSWER} with it")
         errors = {
             f"{result}: {name}": error
             for result, quantities in one["errors"].items()

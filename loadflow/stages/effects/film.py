@@ -11,7 +11,7 @@ from loadflow.data import gains
 from loadflow.journal import Turbulence
 from loadflow.scene.cases import design_load_cases
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import floats_in_films
+from loadflow.scene.shaft_place import move_together
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_costs import cost_of, cost_of_shell
 from loadflow.stages.effects.film_sizes import (
@@ -182,7 +182,8 @@ def _contact(at: Situation) -> Sizes:
 
 def _holds_the_shaft(scene: Scene) -> bool:
     """Whether a shaft that stands at times floats in its films: no smooth one carries it then."""
-    return floats_in_films(scene.shaft, scene.journal) and not always_turns(scene)
+    floats = (move_together(scene.shaft, scene.journal, one) for one in scene.shaft.concepts)
+    return any(floats) and not always_turns(scene)
 
 
 CONTACT = Effect(
