@@ -128,7 +128,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         "Suspension": concepts,
         **_beams(scene),
         "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} seeds at each"
-        + (f", {loads.duration:g} s" if loads.source == "simulate" else ""),
+        + ("" if loads.duration is None else f", {loads.duration:g} s"),
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
             + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")
