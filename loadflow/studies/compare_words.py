@@ -127,7 +127,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         "Loads": source,
         "Suspension": concepts,
         **_beams(scene),
-        "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} seeds at each"
+        "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} seed{'s' * (told != '1')} at each"
         + ("" if loads.duration is None else f", {loads.duration:g} s"),
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
