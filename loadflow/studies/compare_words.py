@@ -121,14 +121,14 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         f"{name.replace('_', ' ')} ({concept.integration})"
         for name, concept in scene.shaft.suspensions.items()
     )
-    few = min(seeds)
-    told = f"{few} … {max(seeds)}" if few != max(seeds) else f"{few}"
+    few, most = min(seeds), max(seeds)
+    told = f"{few} … {most} seeds" if few != most else f"{few} seed{'s' * (few != 1)}"
     return {
         "Loads": source,
         "Suspension": concepts,
         **_beams(scene),
-        "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} seeds at each"
-        + (f", {loads.duration:g} s" if loads.source == "simulate" else ""),
+        "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} at each"
+        + ("" if loads.duration is None else f", {loads.duration:g} s"),
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
             + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")

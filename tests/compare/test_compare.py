@@ -59,7 +59,7 @@ from loadflow.studies.compare_result import (
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
-from loadflow.studies.compare_words import conclusion, drawn, reservations
+from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
 
@@ -604,6 +604,18 @@ def test_numbers_are_found_once_and_anew_where_they_rest_on_something_else(
     bare = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0}
     compare(scene_of(cube, as_built={**bare, "alignment": 0.0}), out=tmp_path)
     assert sorted(asked[1:]) == ["double-row-tapered", "journal-cylindrical", "two-spherical"]
+
+
+def test_inputs_tell_wind_speeds_seeds_and_the_length_that_is_stated():
+    cases = {"case": [0, 1, 2, 3], "dlc": ("case", ["1.1", "1.1", "3.1", ""]),
+             "wind_speed": ("case", [8.0, 8.0, 12.0, np.nan])}  # fmt: skip
+    runs = [{"journal": xr.Dataset(coords=cases)}]
+    told = [
+        facts(make_scene({"name": "c", "loads": loads}), runs)["Load cases"]
+        for loads in ({}, {"duration": 120.0})
+    ]
+    by_case = "4: DLC 1.1 at 8 m/s; DLC 3.1 at 12 m/s; of no design load case; 1 … 2 seeds at each"
+    assert told == [by_case, f"{by_case}, 120 s"]
 
 
 class Links(HTMLParser):
