@@ -127,6 +127,21 @@ def load_cases(count: int) -> str:
     return f"{count} load case{'s' * (count != 1)}"
 
 
+def three_digits(value: float) -> str:
+    """Return a number with three significant digits, without an exponent where it can be read.
+
+    Examples
+    --------
+    >>> three_digits(1.6), three_digits(109.2), three_digits(1352.4)
+    ('1.60', '109', '1,352')
+    """
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 999.5:
+        return f"{value:#.3g}".rstrip(".")
+    return f"{value:,.0f}" if 999.5 <= abs(value) < 1e7 else f"{value:.2e}"
+
+
 def percent(share: float, signed: bool = False) -> str:
     """Return a share as a percentage of two digits, written out.
 

@@ -11,7 +11,7 @@ from loadflow.planning.choice import finer
 from loadflow.planning.plan import make_plan
 from loadflow.planning.verification import to_refine
 from loadflow.scene.scene import make_scene
-from loadflow.stages.comparisons import remembered
+from loadflow.stages.paths_again import remembered
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
 
@@ -161,5 +161,6 @@ def test_a_model_is_refined_only_where_nothing_that_stays_is_further_off():
     }
     tree = xr.DataTree.from_dict({"check": xr.Dataset(values, texts)})
     stays = "motion of the film"
-    assert to_refine(tree, lambda stage: stage != stays) == ["rolling"]
-    assert to_refine(tree, lambda stage: True) == ["journal", stays, "rolling"]
+    assert to_refine(tree, lambda stage: stage != stays, lambda *row: 1) == ["rolling"]
+    every = to_refine(tree, lambda stage: True, lambda stage, *row: 2 if stage == "journal" else 1)
+    assert every == ["journal", "journal", stays, "rolling"]

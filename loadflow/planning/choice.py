@@ -12,7 +12,7 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
 from loadflow.planning.effects import Estimates, concerned, is_valid, switched
-from loadflow.planning.ladder import choices, expected_seconds
+from loadflow.planning.ladder import choices, expected_seconds, measured
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
@@ -350,6 +350,28 @@ def refine(choice: Choice, names: Iterable[str]) -> Choice:
         reasons[_section(name)] = "refined: the coarser model differs too much on cases of this run"
     errors = expected_errors(scene, choice.estimates)
     return replace(choice, scene=scene, reasons=reasons, errors=errors)
+
+
+def rungs_up(scene: Scene, name: str, quantity: str, difference: float, allowed: float) -> int:
+    """How many rungs finer a model has to be, for a quantity to be within what is allowed.
+
+    The next rung moves it by `difference`. By the errors e of the ladder, whose order is that of
+    the cells or steps, rung k is then off by that times e_k/(e_0 - e_1). The finest of those
+    that were measured, if none is good enough; 1 where the ladder does not tell.
+    """
+    found: list[float] = []
+    one: Scene | None = scene
+    while one is not None and (known := measured(one, name)) is not None:
+        error = known.get("errors", {}).get(quantity, {}).get("max", np.inf)
+        if found and error >= found[-1]:
+            break
+        found.append(error)
+        one = finer(one, name)
+    if len(found) < 2 or not np.isfinite([difference, found[0]]).all():
+        return 1
+    expected = difference * np.array(found[1:]) / (found[0] - found[1])
+    good = np.flatnonzero(expected <= allowed)
+    return int(good[0]) + 1 if good.size else len(expected)
 
 
 def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:

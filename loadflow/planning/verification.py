@@ -50,11 +50,16 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
     )
 
 
-def to_refine(tree: xr.DataTree, can: Callable[[str], bool]) -> list[str]:
+def to_refine(
+    tree: xr.DataTree,
+    can: Callable[[str], bool],
+    rungs: Callable[[str, str, float, float], int],
+) -> list[str]:
     """Return the models and effects whose refinement brings an answer nearer to what is asked for.
 
     They differ by more than that, `can` be refined, and are not outweighed in every such answer by
-    what cannot be: a finer grid is no help where the effect of motion, left out, is larger.
+    what cannot be: a finer grid is no help where the effect of motion, left out, is larger. Each is
+    named as often as it takes, by what `rungs` says of stage, quantity, difference and allowance.
     """
     if "check" not in tree.children:
         return []
@@ -69,12 +74,13 @@ def to_refine(tree: xr.DataTree, can: Callable[[str], bool]) -> list[str]:
     for stage, answer, row in rows:
         if not able[stage]:
             fixed[answer] = max(fixed.get(answer, 0.0), row["difference"].item())
-    helps = [
-        stage
-        for stage, answer, row in rows
-        if able[stage] and row["difference"].item() > fixed.get(answer, 0.0)
-    ]
-    return list(dict.fromkeys(helps))
+    helps: dict[str, int] = {}
+    for stage, answer, row in rows:
+        difference, allowed = row["difference"].item(), row["allowed"].item()
+        if able[stage] and difference > fixed.get(answer, 0.0):
+            up = rungs(stage, answer[1], difference, allowed)
+            helps[stage] = max(helps.get(stage, 0), up)
+    return [stage for stage, up in helps.items() for _ in range(up)]
 
 
 def warnings(tree: xr.DataTree) -> list[str]:

@@ -138,6 +138,29 @@ def list_cases(scene: Scene) -> list[Case]:
     return distinct if loads.weights == "given" else weighted(distinct, wind_class(scene))
 
 
+def design_load_cases(scene: Scene) -> frozenset[str]:
+    """Design load cases of a scene, as files, their names or a list say; no series is read.
+
+    Of files that are not there yet their names count, of cubes nothing.
+    """
+    loads = scene.loads
+    if loads.source == "simulate":
+        return frozenset(loads.dlcs)
+    cubes = [pattern for pattern in loads.files if Path(pattern).suffix in CUBES]
+    others = [pattern for pattern in loads.files if pattern not in cubes]
+    named = list_names(others, pattern=loads.pattern, cases=loads.cases) if others else []
+    found = {label.dlc for _, label in named if label.dlc is not None}
+    for path in (Path(name) for pattern in cubes for name in glob.glob(pattern)):
+        found |= _in_cube(path.absolute(), path.stat().st_mtime_ns)
+    return frozenset(found)
+
+
+@lru_cache(maxsize=100)
+def _in_cube(path: Path, changed: int) -> frozenset[str]:
+    cube = open_cube(path)
+    return frozenset(str(case["dlc"].item()) for _, case in iter_cases(cube))
+
+
 def wind_class(scene: Scene) -> iec.WindClass:
     """Speeds of the wind class of a scene."""
     from loadflow.wind.cases import wind_class as class_of

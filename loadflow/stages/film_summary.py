@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from loadflow.stages.labelling import labelled
 from loadflow.stages.running_time import counted, time_shares
 from loadflow.stages.summary import over_cases
 from loadflow.stages.turning import is_parked, turning
+from loadflow.stages.whirl import whirling
 from loadflow.wind.cases import stands_or_starts
 
 
@@ -90,6 +91,10 @@ def extremes(samples: xr.Dataset, parked: bool = False, starts: bool = False) ->
         values, meaning = np.where(turns, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
     found |= _grid_errors(samples, floats)
+    if samples.attrs.get("motion") == "transient" and "time" in samples:
+        share = (weight * whirling(samples)).where(counted(samples), 0.0).sum()
+        whole = weight.where(counted(samples), 0.0).sum()
+        found["whirl_share"] = share / whole, "1", "share of the time in half-speed whirl"
     for means, count in ((MEANS, counted(samples)), (SUPPLY, True)):
         for name, (of, units, meaning) in means.items():
             if of in samples:
@@ -158,11 +163,38 @@ def _grid_errors(
     return found
 
 
+WHIRLS = 0.05
+"""Share of the time that a shaft has to whirl, to be told."""
+
+
 def warnings(tree: xr.DataTree) -> list[str]:
-    """Say in which load cases the cells do not resolve the film, and how far off it may be."""
+    """Say in which load cases the cells do not resolve the film, or have to end its whirl."""
     if "journal" not in tree.children:
         return []
-    table, said = tree["journal"].to_dataset(), []
+    table = tree["journal"].to_dataset()
+    return [*_unresolved(table), *_whirls(table)]
+
+
+def _whirls(table: xr.Dataset) -> Iterator[str]:
+    """Where a shaft whirls at half its speed, which hardly anything but the cells damps."""
+    if "whirl_share" not in table:
+        return
+    for bearing in table["bearing"].values:
+        share = table["whirl_share"].sel(bearing=bearing)
+        some = int((share >= WHIRLS).sum())
+        if some:
+            worst = int(share.fillna(0.0).argmax("case"))
+            yield (
+                f"journal, bearing {bearing}: the shaft whirls at half its speed in {some} of "
+                f"{share.size} load cases, {table['case'].values[worst]} for "
+                f"{percent(float(share[worst]))} of the time; its film does not rupture, and how "
+                "soon this dies, with film, pressure and friction until then, is up to the cells; "
+                "more load or a lower edge_pressure lets the film rupture, which damps it"
+            )
+
+
+def _unresolved(table: xr.Dataset) -> list[str]:
+    said: list[str] = []
     if "smallest_film" + GRID_ERROR not in table:
         return []
     share = table["smallest_film" + GRID_ERROR] / table["smallest_film"]

@@ -18,7 +18,7 @@ from loadflow.errors import SolverError
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.stages.comparisons import FILM, describe_loads, extremes_of_orbit
+from loadflow.stages.comparisons import describe_loads
 from loadflow.stages.effects.situation import points, situation
 from loadflow.stages.film_of_bearing import (
     equilibria,
@@ -28,6 +28,7 @@ from loadflow.stages.film_of_bearing import (
 )
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.loads import hub_loads
+from loadflow.stages.paths_again import FILM, extremes_of_orbit
 from loadflow.stages.reduction import moment_governs
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads

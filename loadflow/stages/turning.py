@@ -6,9 +6,9 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from loadflow.scene.cases import Case
+from loadflow.scene.cases import Case, design_load_cases
 from loadflow.scene.scene import Scene
-from loadflow.wind.cases import LOAD_CASES, load_case, stands_or_starts
+from loadflow.wind.cases import parked, stands_or_starts
 
 SLOWEST = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
@@ -22,15 +22,12 @@ the loaded one of some π, draws no film in: the surfaces rest on each other."""
 
 def is_parked(case: Case) -> bool:
     """Whether a brake holds the shaft throughout, though a storm may pull it through its brake."""
-    return case.dlc in LOAD_CASES and LOAD_CASES[case.dlc].parked
+    return parked(case.dlc)
 
 
 def always_turns(scene: Scene) -> bool:
-    """Whether the rotor turns through all load cases; of given series that is not known."""
-    if scene.loads.source == "files":
-        return True
-    rows = [load_case(dlc) for dlc in scene.loads.dlcs]
-    return all(row.operating and row.events == ("none",) for row in rows)
+    """Whether the rotor turns through all load cases, as far as names tell what given ones are."""
+    return not any(map(stands_or_starts, design_load_cases(scene)))
 
 
 def carried_throughout(scene: Scene) -> bool:

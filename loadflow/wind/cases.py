@@ -193,6 +193,30 @@ def stands_or_starts(dlc: str) -> bool:
     return dlc in STARTS_IN_WORDS
 
 
+def starts_or_stops(dlc: str) -> bool:
+    """Whether the shaft comes from standstill, or to it, in a load case of the table or a word.
+
+    Examples
+    --------
+    >>> starts_or_stops("3.1"), starts_or_stops("shutdown"), starts_or_stops("idle")
+    (True, True, False)
+    """
+    if dlc in LOAD_CASES:
+        return LOAD_CASES[dlc].stands_or_starts and LOAD_CASES[dlc].operating
+    return dlc in STARTS_IN_WORDS - {*STANDING, "idle"}
+
+
+def parked(dlc: str) -> bool:
+    """Whether a brake holds the shaft throughout a load case, one of the table or a word.
+
+    Examples
+    --------
+    >>> parked("6.1"), parked("parked"), parked("idling")
+    (True, True, False)
+    """
+    return LOAD_CASES[dlc].parked if dlc in LOAD_CASES else dlc == "parked"
+
+
 def load_case(dlc: str) -> LoadCase:
     """Row of the table of design load cases.
 

@@ -10,6 +10,7 @@ from loadflow.stages import journal as stage
 from loadflow.stages.comparisons import compare
 from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.journal import FILM
+from loadflow.stages.paths_again import answers_of_path, extremes_of_orbit
 
 CASE = Case(dlc="4.1", wind_speed=12.0, seed=1)
 STEP = 0.05
@@ -98,3 +99,26 @@ def test_films_in_motion_and_at_rest_are_compared_while_the_rotor_runs():
     found = {row.quantity: row.value for row in rows if row.against == "the film in motion"}
     assert parts["journal"]["N"]["in_contact"].values.any()
     assert 0.0 < found["minimum film"] < 0.5
+
+
+def test_what_asperities_carry_at_rest_and_the_mean_friction_are_the_answers_of_a_start():
+    rows = {
+        "in_contact": [1, 1, 0, 0, 0, 0],
+        "running": [0, 0, 1, 1, 1, 1],
+        "minimum_film": [1e-6, 1e-6, 3e-6, 4e-6, 1e-4, 1e-4],
+        "eccentricity_ratio": [1.001, 1.001, 0.99, 0.98, 0.6, 0.6],
+        "friction_power": [5.0, 5.0, 10.0, 10.0, 40.0, 40.0],
+    }
+    film = xr.Dataset({name: ("sample", np.array(row)) for name, row in rows.items()})
+    stretch = film.isel(sample=slice(2, 4))
+    ours = extremes_of_orbit(film.assign(maximum_pressure=film["friction_power"]), 0)
+    ours |= {"minimum_film": 3e-6, "eccentricity_ratio": 0.99, "friction_power": 10.0}
+    theirs = ours | {"minimum_film": 4e-6, "eccentricity_ratio": 0.98, "friction_power": 12.0}
+    found = answers_of_path(film, stretch, ours, theirs)
+    # surfaces that rest on each other are nearer than those that lift off, whatever their cells
+    assert found["minimum_film"] == ours["minimum_film"]
+    assert found["eccentricity_ratio"] == ours["eccentricity_ratio"]
+    # a fifth more of 20 of 100 W s
+    assert found["friction_power"] / ours["friction_power"] == pytest.approx(1.04)
+    smooth = answers_of_path(film.assign(in_contact=0 * film["in_contact"]), stretch, ours, theirs)
+    assert smooth["minimum_film"] == theirs["minimum_film"]

@@ -247,7 +247,7 @@ def points(cases: Iterable[Case]) -> list[Case]:
 
 def _state(case: Case) -> str:
     """What the rotor does throughout: it is parked, has a blade stuck besides, idles; or none."""
-    event = LOAD_CASES[case.dlc].events[0] if case.dlc in LOAD_CASES else ""
+    event = LOAD_CASES[case.dlc].events[0] if case.dlc in LOAD_CASES else case.dlc
     return event if event in STANDING else ""
 
 

@@ -1,0 +1,174 @@
+"""A path of a film beside that of better models, on a stretch around where it is closest."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from scipy.ndimage import maximum_filter1d
+
+from loadflow.cube import time_step
+from loadflow.errors import SolverError
+from loadflow.quantities import percent
+from loadflow.scene.cases import Case
+from loadflow.scene.journal import Journal
+from loadflow.scene.scene import Scene
+from loadflow.stages.differences import Difference, differences
+from loadflow.stages.film_past import TURNS, past_of
+from loadflow.stages.journal import FILM as CELLS
+from loadflow.stages.running_time import counted
+from loadflow.stages.shaft_in_films import in_motion
+from loadflow.stages.turning import SLOWEST, is_parked, turning
+from loadflow.stages.whirl import FORGOTTEN, whirling
+
+FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power")
+
+STEPS = 240
+"""Steps of an orbit that are followed again, up to a little behind its largest eccentricity."""
+
+
+def paths_again(
+    scene: Scene,
+    case: Case,
+    parts: Mapping[str, Any],
+    stage: str,
+    against: str,
+    options: dict[str, Journal],
+) -> Iterator[Difference]:
+    """A stretch of the orbit around its largest eccentricity, from the place where it begins.
+
+    Of it count the samples around that in which the rotor runs, as in films at rest, and does not
+    whirl at half its speed: how soon that ends depends on the cells, however fine they are.
+    """
+    if not options:
+        return
+    journal = next(iter(options.values())).model_copy(update={"own": options})
+    other = scene.model_copy(update={"journal": journal})
+    for bearing, better in options.items():
+        film = parts["journal"][bearing].to_dataset().load()
+        step = time_step(parts["loads"])
+        taken, finer = scene.journal.every(step), better.every(step)
+        runs, where = running_ratio(case, film), f"{case.name}, {bearing}"
+        whirls = whirling(film) & np.isfinite(runs)
+        if whirls.any() and np.array_equal(whirls, np.isfinite(runs)):
+            yield _not_asked(stage, where, "the shaft whirls at half its speed throughout")
+            continue
+        runs = np.where(whirls, np.nan, runs)
+        if scene.shaft.coupled:
+            # all films are one system: where smooth ones touch, none goes on as on other cells
+            films = [parts["journal"][name]["in_contact"].values > 0 for name in options]
+            touches = np.any(films, axis=0) & np.asarray(counted(film))
+            # ends that are too near fail, and cells say how far
+            near = film["minimum_film"].values < better.least_film
+            runs = np.where(maximum_filter1d(near, 2 * STEPS), np.nan, runs)
+            if (touches.any() and better.contact is None) or np.isnan(runs).all():
+                yield _not_solved(stage, where, touches.mean(), better)
+                continue
+        worst = int(np.nanargmax(runs))
+        formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
+        begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
+        lead = 0
+        if scene.shaft.coupled:  # a shaft in its films begins with a past of its own, and forgets
+            turn = 2.0 * np.pi / max(float(np.abs(film["speed"][begin])), SLOWEST)
+            lead = min(begin - formed, int(FORGOTTEN * turn / (step * taken)))
+        elif not (recent := remembered(film, begin, step * taken)).all():
+            lead = min(begin - formed, recent.size)
+        begin -= lead
+        place = film["eccentricity"].values[begin]
+        steps = min(STEPS + lead, film.sizes["sample"] - begin)
+        stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
+        known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
+        steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
+        # taken up in the middle, a film has no past: what it does before it has one is no answer
+        if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
+            known = max(known, min(STEPS // 4, (steps - lead) // 2) + lead)
+        ours = film.isel(sample=slice(begin, begin + steps))
+        series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
+        loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
+        try:
+            path = in_motion(other, bearing, loads, shaft.sel(bearing=bearing), place)
+            theirs = extremes_of_orbit(path, known * taken // finer)
+        except SolverError:
+            theirs = dict.fromkeys(FILM, np.nan)
+        found = extremes_of_orbit(ours, known)
+        # cells count where the film is thin, warmth all along the path
+        judged = ours.isel(sample=slice(known, None)) if stage == CELLS.name else film
+        answers = answers_of_path(film, judged, found, theirs)
+        yield from differences(stage, "journal.film", where, against, found, answers)
+
+
+def answers_of_path(
+    film: xr.Dataset, stretch: xr.Dataset, ours: dict[str, float], theirs: dict[str, float]
+) -> dict[str, float]:
+    """What answers of the whole path would be if a `stretch` of it had `theirs` in place of `ours`.
+
+    Over `ours` of the stretch. An extreme is as it was where asperities carry the shaft at rest
+    beyond it. The friction of a path is its mean: that of samples in which the shaft lies as far
+    out as in the stretch has its change.
+    """
+    found = dict(theirs)
+    rests = (film["in_contact"] > 0) & ~np.asarray(counted(film))
+    for name, further in (("minimum_film", min), ("eccentricity_ratio", max)):
+        rest = film[name].where(rests)
+        if rest.notnull().any():
+            at_rest = float(rest.min() if further is min else rest.max())
+            reached = further(ours[name], at_rest)
+            found[name] = ours[name] * further(theirs[name], at_rest) / reached
+    power = film["friction_power"].where(counted(film))
+    alike = film["eccentricity_ratio"] >= stretch["eccentricity_ratio"].min()
+    mean, change = ours["friction_power"], theirs["friction_power"] - ours["friction_power"]
+    if power.sum() > 0.0:
+        change *= float(power.where(alike).sum() / power.sum())
+    return found | {"friction_power": mean + change}
+
+
+def remembered(film: xr.Dataset, begin: int, step: float) -> np.ndarray:
+    """Whether the rotor runs (n,) in the samples before `begin` that a film remembers there.
+
+    Those of its last `TURNS` turns: as fast as the shaft turns, oil flows to where it was lacking.
+    Samples are every `step`, s.
+    """
+    angle = np.cumsum(np.abs(film["speed"].values[:begin][::-1])) * step
+    remembered = int(np.searchsorted(angle, 2.0 * np.pi * TURNS))
+    runs = film["running"].values if "running" in film else np.ones(film.sizes["sample"])
+    return runs[begin - remembered : begin] > 0
+
+
+def _not_solved(stage: str, where: str, touching: float, options: Journal) -> Difference:
+    """A film that is not solved again, as ends touch in a share of the time, or nearly do always.
+
+    Where they touch it is thinner than the roughness of both surfaces, however fine the cells are.
+    """
+    how = f"touch in {percent(touching)} of the time: h" if touching else "nearly touch: h"
+    least = options.contact_film if touching else options.least_film
+    return _not_asked(stage, where, f"bearing ends {how} < {1e6 * least:.2g} µm")
+
+
+def _not_asked(stage: str, where: str, why: str) -> Difference:
+    against = f"no other film; {why}"
+    return Difference(stage, "journal.film", "minimum film", where, against, float("nan"))
+
+
+def running_ratio(case: Case, film: xr.Dataset) -> np.ndarray:
+    """Eccentricity ratio of the samples in which the rotor runs, where some have one; else NaN.
+
+    Without any such sample that of all in which it turns.
+    """
+    ratio = film["eccentricity_ratio"].where(
+        xr.DataArray(turning(film, is_parked(case)), dims="sample")
+    )
+    running = ratio.where(counted(film))
+    return np.asarray((running if running.notnull().any() else ratio).values)
+
+
+def extremes_of_orbit(path: xr.Dataset, begin: int = 0) -> dict[str, float]:
+    """What users read of an orbit: the smallest film, the mean friction, else the largest value.
+
+    From its sample `begin` on.
+    """
+    track = {name: path[name][begin:] for name in FILM}
+    found = {name: float(track[name].max()) for name in ("eccentricity_ratio", "maximum_pressure")}
+    smallest, friction = float(track["minimum_film"].min()), float(track["friction_power"].mean())
+    return found | {"minimum_film": smallest, "friction_power": friction}
