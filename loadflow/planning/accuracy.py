@@ -207,8 +207,8 @@ def of_link(
     for effect in _left_out(scene, link.model):
         size = known.size(effect, link.quantity)
         if size:
-            untold = gain is None or isnan(size)
-            yield Part(link.model, effect, None if untold else size * gain)
+            error = None if gain is None or isnan(size) else size * gain
+            yield Part(link.model, effect, error)
 
 
 def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
