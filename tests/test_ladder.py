@@ -118,6 +118,17 @@ def test_a_finer_wind_costs_what_it_takes_longer():
     assert seconds(wind_grid=[13, 50]) is None
 
 
+def test_what_rigid_rings_leave_out_is_not_told_twice():
+    """The row of the rung tells the error that answers count; the rest is that of an effect."""
+    made = plan_of(results=["rolling.loads"], shaft={"moment": {}}, rolling={"rings": "rigid"})
+    step = next(step for step in made.steps if step.name == "rolling")
+    told = ladder()["rolling"]
+    assert step.rung.startswith("rigid")
+    assert told["flexible"]["error"] in step.error
+    assert "among the effects" in step.error
+    assert told["rigid"]["error"] not in step.error
+
+
 def test_errors_are_ordered_and_name_their_worst_case():
     measured = [
         error

@@ -45,7 +45,7 @@ def check_cube(cube: Cube, source: str = "") -> None:
     >>> check_cube(make_cube([make_case([0.0, 0.1], data, dlc="1.1", wind_speed=8.0, seed=1)]))
     """
     names = set()
-    for block in _blocks(cube):
+    for block in _blocks(cube, source):
         for name, case in iter_cases(block):
             if name in names:
                 raise InputError(f"{_where(source, name)}: the cube holds this case twice")
@@ -55,10 +55,12 @@ def check_cube(cube: Cube, source: str = "") -> None:
         raise InputError(f"{_where(source)}: the cube is empty, it holds no case")
 
 
-def _blocks(cube: Cube) -> Iterator[xr.Dataset]:
+def _blocks(cube: Cube, source: str) -> Iterator[xr.Dataset]:
     """Yield a cube in pieces of so many cases as are read at once; each reading costs some ms."""
     for part in parts(cube).values():
         count = part.sizes.get("case", 0)
+        if count and "case" not in part.coords:
+            raise InputError(f"{_where(source)}: coordinate 'case', the names of cases, is missing")
         if not count:
             yield part
             continue

@@ -271,15 +271,23 @@ def _step(
     )
 
 
+def _told(scene: Scene, rungs: Rungs) -> str | None:
+    """Error of a rung in words; of one that differs by an effect, that with the effect."""
+    key = rungs.error_key(scene) if rungs.error_key else rungs.key(scene)
+    error = (measured(scene, rungs.name, key) or {}).get("error")
+    if error is None or key == rungs.key(scene):
+        return error
+    return f"{error}, as {key}; what it leaves out is among the effects"
+
+
 def _worth_naming(stage: Stage, scene: Scene) -> list[Rungs]:
     """Models of a stage: its own, and the others where there is something to choose."""
     return [one for one in stage.models if one is stage.models[-1] or not one.exact(scene)]
 
 
 def _error(scene: Scene, stage: Stage) -> str | None:
-    """Errors of the stage's rungs in words; None if one of them is not known."""
-    named = _worth_naming(stage, scene)
-    found = [(rungs, (measured(scene, rungs.name) or {}).get("error")) for rungs in named]
+    """Errors of the stage's rungs in words, as answers count them; None if one is not known."""
+    found = [(rungs, _told(scene, rungs)) for rungs in _worth_naming(stage, scene)]
     if not found or not all(error for _, error in found):
         return None
     own, *others = reversed(found)

@@ -75,6 +75,13 @@ def test_dimensions_must_be_those_of_the_schema():
         check_cube(broken)
 
 
+def test_cases_without_names_are_refused():
+    """As `expand_dims` leaves a case: with the dimension, and without its coordinate."""
+    bare = cube().drop_vars("case")
+    with pytest.raises(InputError, match=r"loads\.h5: coordinate 'case', .* is missing"):
+        check_cube(bare, "loads.h5")
+
+
 def test_empty_cubes_are_refused():
     with pytest.raises(InputError, match=r"loads\.h5: the cube is empty"):
         check_cube(cube().isel(case=slice(0)), "loads.h5")
