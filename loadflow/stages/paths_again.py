@@ -94,29 +94,37 @@ def paths_again(
             theirs = dict.fromkeys(FILM, np.nan)
         found = extremes_of_orbit(ours, known)
         # cells count where the film is thin, warmth all along the path
-        judged = ours.isel(sample=slice(known, None)) if stage == CELLS.name else film
-        answers = answers_of_path(film, judged, found, theirs)
+        places = slice(begin + known, begin + steps) if stage == CELLS.name else slice(None)
+        answers = answers_of_path(film, places, found, theirs)
         yield from differences(stage, "journal.film", where, against, found, answers)
 
 
 def answers_of_path(
-    film: xr.Dataset, stretch: xr.Dataset, ours: dict[str, float], theirs: dict[str, float]
+    film: xr.Dataset, places: slice, ours: dict[str, float], theirs: dict[str, float]
 ) -> dict[str, float]:
-    """What answers of the whole path would be if a `stretch` of it had `theirs` in place of `ours`.
+    """What answers of the whole path are if a stretch of it, at `places`, has `theirs`.
 
-    Over `ours` of the stretch. An extreme is as it was where asperities carry the shaft at rest
-    beyond it. The friction of a path is its mean: that of samples in which the shaft lies as far
-    out as in the stretch has its change.
+    In place of `ours`, and over those. Film and ε stay as they are where asperities carry the shaft
+    at rest beyond these; so does the pressure where they rub in the stretch, and a film that they
+    do not share has more. The friction of a path is its mean: that of samples in which the shaft
+    lies as far out as in the stretch has its change.
     """
+    stretch, touches = film.isel(sample=places), film["in_contact"] > 0
+    runs = np.broadcast_to(np.asarray(counted(film)), touches.shape)
+    rests, elsewhere = touches & ~runs, ~touches & runs
+    elsewhere[places] = False
+    stays = {
+        "minimum_film": (np.fmin, film["minimum_film"].where(rests).min()),
+        "eccentricity_ratio": (np.fmax, film["eccentricity_ratio"].where(rests).max()),
+    }
+    if touches[places].any():
+        stays["maximum_pressure"] = np.fmax, film["maximum_pressure"].where(elsewhere).max()
     found = dict(theirs)
-    rests = (film["in_contact"] > 0) & ~np.asarray(counted(film))
-    for name, further in (("minimum_film", min), ("eccentricity_ratio", max)):
-        rest = film[name].where(rests)
-        if rest.notnull().any():
-            at_rest = float(rest.min() if further is min else rest.max())
-            reached = further(ours[name], at_rest)
-            found[name] = ours[name] * further(theirs[name], at_rest) / reached
-    power = film["friction_power"].where(counted(film))
+    for name, (further, rest) in stays.items():
+        if np.isfinite(theirs[name]):
+            reached = further(ours[name], float(rest))
+            found[name] = float(ours[name] * further(theirs[name], float(rest)) / reached)
+    power = film["friction_power"].where(runs)
     alike = film["eccentricity_ratio"] >= stretch["eccentricity_ratio"].min()
     mean, change = ours["friction_power"], theirs["friction_power"] - ours["friction_power"]
     if power.sum() > 0.0:
