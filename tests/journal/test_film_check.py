@@ -123,12 +123,8 @@ def test_what_asperities_carry_at_rest_and_the_mean_friction_are_the_answers_of_
     # surfaces that rest on each other are nearer than those that lift off, whatever their cells
     assert found["minimum_film"] == ours["minimum_film"]
     assert found["eccentricity_ratio"] == ours["eccentricity_ratio"]
-    # the film that carries alone has a larger pressure than one that asperities share the load with
-    assert found["maximum_pressure"] == ours["maximum_pressure"]
     # a fifth more of 20 of 100 W s
     assert found["friction_power"] / ours["friction_power"] == pytest.approx(1.04)
-    beyond = answers_of_path(film, stretch, ours, theirs | {"maximum_pressure": 4e6})
-    assert beyond["maximum_pressure"] / ours["maximum_pressure"] == pytest.approx(4 / 3)
     smooth = answers_of_path(film.assign(in_contact=0 * film["in_contact"]), stretch, ours, theirs)
     assert smooth["minimum_film"] == theirs["minimum_film"]
     assert smooth["maximum_pressure"] == theirs["maximum_pressure"]
