@@ -44,6 +44,7 @@ READABLE = {
     "h": (1 / HOURS_PER_YEAR, "years"),
     "rad/s": (30 / math.pi, "1/min"),
     "rad": (180 / math.pi, "°"),
+    "W/m^2": (1e-3, "kW/m²"),
     "m^3/s": (6e4, "l/min"),
     "m3/s": (6e4, "l/min"),  # of files of former versions
     "megarevolution": (1.0, "Mrev"),
@@ -103,6 +104,18 @@ def scale_of(units: str) -> tuple[float, str]:
     return (CELSIUS, "°C") if units == "K" else (0.0, units)
 
 
+def four_digits(value: float) -> str:
+    """Return a number with four digits, written out up to ten million.
+
+    Examples
+    --------
+    >>> four_digits(0.0123456), four_digits(13394.2), four_digits(2.5e9), four_digits(-10000.0)
+    ('0.01235', '13390', '2.5e+09', '-10000')
+    """
+    rounded = float(f"{value:.4g}")
+    return f"{rounded:.0f}" if 1e4 <= abs(rounded) < 1e7 else f"{value:.4g}"
+
+
 def load_cases(count: int) -> str:
     """Return a number of load cases in words.
 
@@ -112,6 +125,21 @@ def load_cases(count: int) -> str:
     ('1 load case', '66 load cases')
     """
     return f"{count} load case{'s' * (count != 1)}"
+
+
+def three_digits(value: float) -> str:
+    """Return a number with three significant digits, without an exponent where it can be read.
+
+    Examples
+    --------
+    >>> three_digits(1.6), three_digits(109.2), three_digits(1352.4)
+    ('1.60', '109', '1,352')
+    """
+    if value == 0:
+        return "0"
+    if 1e-3 <= abs(value) < 999.5:
+        return f"{value:#.3g}".rstrip(".")
+    return f"{value:,.0f}" if 999.5 <= abs(value) < 1e7 else f"{value:.2e}"
 
 
 def percent(share: float, signed: bool = False) -> str:

@@ -117,7 +117,7 @@ def test_a_film_whose_ends_touch_is_told_as_not_checked(cube, tmp_path):
 
 
 def test_loads_given_to_a_scene_keep_how_it_reads_them(cube):
-    from loadflow.scene.scene import with_loads
+    from loadflow.scene.changed import with_loads
 
     loads = {"files": ["none.h5"], "pattern": r"v(?P<wind_speed>\d+)", "wind_class": "II"}
     scene = with_loads(scene_of(cube, "journal.film", loads=loads), [str(cube)])

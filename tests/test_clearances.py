@@ -24,7 +24,7 @@ from loadflow.scene.thrust import Thrust
 from loadflow.stages import bores, thrust
 from loadflow.stages.effects import clearances
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
-from loadflow.stages.effects.film import TILT
+from loadflow.stages.effects.film_tilt import TILT
 from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
@@ -194,8 +194,8 @@ def test_the_ends_of_a_film_close_down_to_where_surfaces_touch(monkeypatch):
     film = np.full((5, 2), 20.0 * at.scene.journal.at("N").contact_film)
 
     def told(share):
-        ends = {"N": clearances._Ends(np.full(film.shape, share), film)}
-        monkeypatch.setattr(clearances, "_ends", lambda at: ends)
+        ends = {"N": clearances.Ends(np.full(film.shape, share), film)}
+        monkeypatch.setattr(clearances, "ends_afloat", lambda at: ends)
         return CLEARANCES.indicator(at)["minimum film"]
 
     assert told(0.0) == pytest.approx(0.0, abs=1e-6)

@@ -1,8 +1,10 @@
-"""Every public name has an example in its docstring, and all of them are true."""
+"""Every public name has an example that is true; functions say what they take and give."""
 
 import ast
 import doctest
 import inspect
+import re
+import textwrap
 from importlib import import_module
 from pathlib import Path
 
@@ -67,3 +69,59 @@ def test_a_name_without_an_example_is_seen(monkeypatch):
         f"{__name__}.public", lambda: [*entries, ("mine.Silent", type("S", (), {}))]
     )
     assert without_example() == {"mine.Silent"}
+
+
+SECTIONS = re.compile(r"^(.+)\n-{3,}$", re.MULTILINE)
+
+
+def sections(entry):
+    """Parts of a docstring by their heads; what comes before is that of the empty one."""
+    head, *rest = SECTIONS.split(inspect.getdoc(entry) or "")
+    return {"": head} | dict(zip(rest[::2], rest[1::2]))
+
+
+def own_raises(entry):
+    """Whether a function raises an error itself."""
+    tree = ast.parse(textwrap.dedent(inspect.getsource(entry)))
+    return any(isinstance(node, ast.Raise) and node.exc is not None for node in ast.walk(tree))
+
+
+def unsaid(name, entry):
+    """What the docstring of a function leaves out."""
+    parts, signature = sections(entry), inspect.signature(entry)
+    said = parts.get("Parameters", "") + parts.get("Other Parameters", "")
+    lines = [line.partition(" : ")[0] for line in said.splitlines() if not line.startswith(" ")]
+    known = {one.strip().lstrip("*") for line in lines for one in line.split(",")}
+    missing = [parameter for parameter in signature.parameters if parameter not in known]
+    if str(signature.return_annotation) != "None" and not {"Returns", "Yields"} & {*parts}:
+        missing.append("Returns")
+    if own_raises(entry) and "Raises" not in parts:
+        missing.append("Raises")
+    return (name, *missing) if missing else None
+
+
+def functions():
+    """Public functions, but those under a name of former versions, which name the present one."""
+    for name, entry in public():
+        if inspect.isfunction(entry) and "deprecated" not in (inspect.getdoc(entry) or "").lower():
+            yield name, entry
+
+
+def test_every_public_function_says_what_it_takes_gives_and_raises():
+    assert [one for one in (unsaid(*entry) for entry in functions()) if one] == []
+
+
+def test_what_a_docstring_leaves_out_is_seen():
+    def mine(length: float, width: float) -> float:
+        """An area.
+
+        Parameters
+        ----------
+        length : float
+            m.
+        """
+        if width < 0:
+            raise ValueError("width")
+        return length * width
+
+    assert unsaid("mine", mine) == ("mine", "width", "Returns", "Raises")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from benchmarks.ladder import indicators
+from benchmarks.ladder import indicators, physics_sizes
 from benchmarks.ladder.physics import PAGE, kept_so_far
 from loadflow.planning.pilot import Questions, measure
 from loadflow.scene.cases import list_cases
@@ -13,6 +13,7 @@ from loadflow.stages.effects import film, film_heat, roller_profile, rolling, ro
 from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import to_film
+from loadflow.stages.stage import with_settings
 
 
 def test_a_groove_matters_the_more_the_nearer_the_load_comes_to_it():
@@ -62,13 +63,23 @@ def test_a_film_beside_a_bearing_that_takes_the_moment_gives_way_until_the_bent_
     np.testing.assert_allclose(found + resists * lies, rigid, rtol=1e-6)
 
 
-AT_ENDS = {
-    ("elastic shell", "films, iea-15mw, 6 m/s"),
-    ("elastic shell", "films, iea-15mw, 12 m/s"),
-    ("growth of the clearance", "oil, iea-15mw, 24 m/s"),
-    ("supply of the film", "oil, iea-15mw, 24 m/s"),
-}
-"""Where a bent shaft takes most of the film at the ends of its bearings; theirs is of mid-plane."""
+@pytest.mark.parametrize(
+    ("scene_at", "effect"),
+    [
+        (physics_sizes.touching, film.SHELL),
+        (physics_sizes.grooved, film.SUPPLY),
+        (physics_sizes.grooved, film_heat.GROWTH),
+    ],
+)
+def test_a_film_feels_more_where_a_bent_shaft_closes_the_ends_of_its_bearing(scene_at, effect):
+    """Less than half of it is left there at 15 MW and 24 m/s, nearly all at 1.5 MW and 6 m/s."""
+
+    def told(turbine, speed, tilt):
+        scene = with_settings(scene_at(turbine, speed), "journal", {"tilt": tilt})
+        return effect.indicator(situation(scene, list_cases(scene)))["minimum film"]
+
+    for place, least, most in ((("windpact-1.5mw", 6.0), 1.0, 1.2), (("iea-15mw", 24.0), 2.0, 6.0)):
+        assert least < told(*place, True) / told(*place, False) < most
 
 
 @pytest.fixture(scope="module")
@@ -84,7 +95,7 @@ def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_
         for one in most
         if not one.within and one.effect is not rotor.LATERAL  # no plan leaves it out
     }
-    assert {*wrong} == AT_ENDS
+    assert wrong == {}
     for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, roller_profile.SLICED, rotor.INFLOW):
         assert sum(one.counts for one in most if one.effect is effect) >= 15
 
@@ -93,7 +104,7 @@ def test_the_heat_of_a_film_is_indicated_within_a_factor_of_three_where_the_roto
     """By the charts, warm against cool."""
     ours = [one for one in measured if one.effect is film_heat.HEAT and one.turns and one.counts]
     most = [one.factor for one in indicators.moving_most(ours)]
-    assert len(most) >= 20
+    assert len(most) >= 19
     assert min(most) > 1 / 3
     assert max(most) < 3
 

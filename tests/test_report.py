@@ -20,7 +20,7 @@ from loadflow.plots.style import envelope, figure
 from loadflow.report import Chart, Panel
 from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
-from loadflow.report.run_charts import over_wind_speed
+from loadflow.report.run_charts import over_wind_speed, seed_verdicts
 from loadflow.running.answers_page import answer_row
 from loadflow.running.report_page import _spread, _took, report_is_current, write_report
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
@@ -198,6 +198,33 @@ def test_orbits_are_thinned_to_samples_with_an_answer_the_largest_among_them():
     assert shown.max() == np.nanmax(ratio)
 
 
+def test_no_frame_of_a_chart_is_empty(page):
+    packed = re.findall(r'<script type="application/json">(.*?)</script>', page.read_text("utf-8"))
+    panels = [
+        panel for text in packed for panel in json.loads(text.replace("<\\/", "</"))["panels"]
+    ]
+    assert len(panels) > 10
+    for panel in panels:
+        assert any(
+            isinstance(line["y"], dict) or any(y is not None for y in line["y"])
+            for line in panel["lines"]
+        ), panel["label"]
+
+
+def test_a_test_without_p_values_has_no_frame():
+    tests, shape = ["location", "spectrum"], ("variant", "group", "component", "test")
+    values = np.array([[[[0.2, np.nan]], [[1e-20, np.nan]]]])
+    seeds = xr.Dataset(
+        {"pvalue": (shape, values), "dlc": ("group", ["1.1", "1.1"])},
+        {"variant": ["as-printed"], "component": ["N Fz"], "test": tests,
+         "wind_speed": ("group", [8.0, 12.0])},
+        {"alpha": 0.05},
+    )  # fmt: skip
+    chart = seed_verdicts(seeds, "as-printed", "tests")
+    assert [panel.label for panel in chart.panels] == ["p of location"]
+    assert chart.panels[0].lines["N Fz"].tolist() == [0.2, 1e-12]
+
+
 def test_answers_have_a_unit_that_fits_on_value_and_interval():
     kept = {"result": "journal.film", "bearing": "N", "error": 0.03}
     pressure = Answer(quantity="p", unit="Pa", value=2e7, low=1.9e7, high=2.1e7, **kept)
@@ -228,6 +255,9 @@ WIDE = "document.documentElement.scrollWidth - document.documentElement.clientWi
 PRESS = """(key => { const box = document.querySelector('#loads .chart');
   box.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
   const {min, max} = box.plots[0].scales.x; return max - min; })"""
+DECADES = """[...document.querySelectorAll('.chart')].flatMap(box => box.plots)
+  .filter(plot => plot.scales.y.distr === 3)
+  .map(plot => plot.axes[1]._values.filter(label => label))"""
 SORT = """(() => { const table = document.querySelector('#journal-bearing table.sortable');
   const head = table.querySelectorAll('thead th')[1];
   const column = () => [...table.tBodies[0].rows].map(row => Number(row.cells[1].textContent));
@@ -251,6 +281,7 @@ def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
                 )  # fmt: skip
                 await until_true(browser, f"{DRAWN} === {count}")
                 assert await browser.evaluate(WIDE) <= 0, width
+            decades = await browser.evaluate(DECADES)
             whole = await browser.evaluate(f"{PRESS}('0')")
             await asyncio.sleep(0.2)
             await browser.evaluate(f"{PRESS}('+')")
@@ -259,10 +290,15 @@ def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
             up, down, said = await browser.evaluate(SORT)
             paper = await browser.call("Page.printToPDF", preferCSSPageSize=True)
             errors = [text for text in browser.console if page.as_uri() not in text]
-            return count, whole, half, up, down, said, base64.b64decode(paper["data"]), errors
+            paper = base64.b64decode(paper["data"])
+            return count, decades, whole, half, up, down, said, paper, errors
 
-    count, whole, half, up, down, said, paper, errors = asyncio.run(look())
+    count, decades, whole, half, up, down, said, paper, errors = asyncio.run(look())
     assert count >= 5
+    assert decades
+    for labels in decades:  # of a logarithmic scale: each once, and short
+        assert len(labels) == len({*labels}) > 1
+        assert max(map(len, labels)) <= 5
     assert half == pytest.approx(whole / 2)
     assert up == sorted(up)
     assert down == sorted(up, reverse=True)

@@ -38,15 +38,18 @@ from loadflow.report import figures
 from loadflow.rolling import (
     BallBearing,
     FlexibleRings,
+    FrictionOptions,
     RingBeam,
     RingSection,
     RingSections,
     RollerBearing,
     SlewingBearing,
+    Transient,
     axial_expansion,
+    edge_contact,
 )
 from loadflow.studies.statistics import statistic_records
-from loadflow.tribology import AsperityContact
+from loadflow.tribology import AsperityContact, lubricant
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
 OIL = Lubricant(0.05)
@@ -54,6 +57,7 @@ ROLLERS = RollerBearing(
     rollers=14, roller_diameter=11e-3, roller_length=11e-3, pitch_diameter=60.5e-3
 )
 BALLS = BallBearing(balls=9, ball_diameter=11e-3, pitch_diameter=46e-3, groove_radius=0.52 * 11e-3)
+GREASED = FrictionOptions(oil=lubricant("lgwm-2"), temperature=313.15)
 RING = SlewingBearing(
     balls=40, rows=2, ball_diameter=0.04, pitch_diameter=1.0, groove_radius=0.0208,
     contact_angle=0.785,
@@ -240,7 +244,10 @@ def results():
         cone.pressure((5e-5, 0.0, 0.0), 10.0, thick),
         pair.equilibrium((1e5, 0.0, 5e4), (0.0, 0.0), 1.0, thick),
         ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)),
+        ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)).friction([5.0, 10.0, 20.0], GREASED),
         axial_expansion(RING, [5e4, 1e5], rings),
+        edge_contact(ROLLERS, 2e3, cells=(24, 16), tolerance=1e-4),
+        Transient(np.array([0.0, 0.1]), np.full((2, 5), 1e-5), np.array([0.0, 3e3]), 1e-9),
     ]
     return {type(one).__name__: one for one in found}
 
@@ -248,6 +255,7 @@ def results():
 def classes_of_results():
     """Public classes that are named as results are, or show themselves, of all rooms."""
     rooms = [getattr(lf, name) for name in dir(lf) if inspect.ismodule(getattr(lf, name))]
+    rooms.append(lf.rolling.friction)
     public = {one for room in rooms for one in vars_of(room) if inspect.isclass(one)}
     named = ("Result", "Equilibrium", "Field")
     return {
@@ -280,6 +288,33 @@ def test_every_public_result_shows_draws_and_labels_itself():
         assert data.data_vars, name
         for variable, values in data.data_vars.items():
             assert {"units", "long_name"} <= {*values.attrs}, (name, variable)
+
+
+def test_a_contact_along_a_roller_is_drawn_as_it_was_solved():
+    found = edge_contact(ROLLERS, 2e3, cells=(24, 16), tolerance=1e-4)
+    data = found.to_dataset()
+    cell = np.diff(found.along)[0] * np.diff(found.across)[0]
+    assert float(data["pressure"].sum()) * cell == pytest.approx(2e3, rel=1e-3)
+    area, along = found.plot().axes[:2]
+    assert area.collections[0].get_array().max() == pytest.approx(found.maximum_pressure / 1e6)
+    assert along.lines[0].get_ydata().max() == pytest.approx(found.maximum_pressure / 1e6)
+
+
+def test_the_friction_of_a_bearing_is_drawn_over_speed_as_its_dataset_has_it():
+    found = ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)).friction([20.0, 0.0, 10.0], GREASED)
+    data = found.to_dataset()
+    assert np.allclose(data["torques"].sum("component"), found.torque)
+    assert np.allclose(data["film_parameter"].min(("row", "element", "ring")), [
+        found.film_parameter[k].min() for k in range(3)
+    ])  # fmt: skip
+    left, right = found.plot().axes
+    together = next(line for line in left.lines if line.get_label() == "all together")
+    assert np.allclose(together.get_xdata(), np.array([0.0, 10.0, 20.0]) * 30 / np.pi)
+    assert np.allclose(together.get_ydata(), found.torque[[1, 2, 0]])
+    assert np.allclose(right.lines[0].get_ydata(), found.least_film_parameter[[1, 2, 0]])
+    one = ROLLERS.equilibrium(force=(2e3, 0.0, 0.0)).friction(20.0, GREASED)
+    assert "case" not in one.to_dataset().dims
+    assert one.plot().axes[0].lines
 
 
 # --- rooms ----------------------------------------------------------------------------------------

@@ -6,7 +6,7 @@ import pytest
 from loadflow.planning.pilot import hardest
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.stages.effects import film, film_heat, rotor, thrust
+from loadflow.stages.effects import film, film_heat, film_tilt, rotor, thrust
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.loads import hub_loads
 
@@ -33,7 +33,9 @@ def test_what_takes_a_turning_shaft_is_nothing_of_one_that_stands(dlc):
         assert set(effect.indicator(at).values()) == {0.0}, effect.name
     # what is left are the surfaces: asperities carry all, and the shell gives way beneath them
     assert set(film.CONTACT.indicator(at).values()) == {1.0}
-    assert all(np.isfinite([*film.SHELL.indicator(at).values(), *film.TILT.indicator(at).values()]))
+    assert all(
+        np.isfinite([*film.SHELL.indicator(at).values(), *film_tilt.TILT.indicator(at).values()])
+    )
     resting = next(iter(at.films.values()))
     assert resting.minimum_film == pytest.approx(scene.journal.contact_film)
     assert (resting.friction_power == 0.0).all()

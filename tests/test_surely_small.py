@@ -26,7 +26,7 @@ class Asked(Exception):
 
 
 def asked(scene):
-    def before(questions):
+    def before(questions, choice):
         raise Asked(*questions.effects)
 
     with pytest.raises(Asked) as found:

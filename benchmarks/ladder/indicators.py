@@ -161,13 +161,13 @@ TOLD = """## What indicators are worth
 
 Indicated over measured, by the answer that moves most (of rolling bearings by each, as each has an
 accuracy of its own), where either is 1 % or more; then by answer. A pilot looks at one short series
-of one wind speed, an indicator at the hardest of all. Between the factors of the last column the
-plan leaves the question open, and asks the pilot where it has one: an effect is out for certain if
-it would be small even by so much more, and kept for certain if it would be large even by so much
-less ([accuracy](accuracy.md)); 0: no indicator is a bound there, as asperities carry the shaft.
-Beyond them are shell, supply and growth at 15 MW where the bent shaft takes most of the film at the
-ends of its bearings, as these indicators know that of mid-plane. No plan leaves out the coherence
-of lateral turbulence. Written by `python -m benchmarks.ladder.indicators`."""
+of one wind speed, an indicator at the hardest of all.
+
+The last column says between which factors the plan leaves the question open, and asks the pilot
+where it has one. An effect is out for certain if it would be small even by so much more, and kept
+for certain if it would be large even by so much less ([accuracy](accuracy.md#the-pilot)). 0: no
+indicator is a bound there, as asperities carry the shaft. No plan leaves out the coherence of
+lateral turbulence. Written by `python -m benchmarks.ladder.indicators`."""
 
 
 def main() -> None:

@@ -30,7 +30,8 @@ from benchmarks.ladder.supports import measure_supports
 from loadflow.cube import make_cube, save_cube
 from loadflow.reduction import damage_equivalent_load
 from loadflow.scene.cases import list_cases
-from loadflow.scene.scene import Scene, with_loads
+from loadflow.scene.changed import with_loads
+from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import Shaft
 from loadflow.shaft import (
     Beam,

@@ -16,7 +16,8 @@ from typing import Any
 
 from benchmarks.ladder.physics_sizes import REFERENCE, Found
 from loadflow.running.runner import run
-from loadflow.scene.scene import Scene, with_name
+from loadflow.scene.changed import with_name
+from loadflow.scene.scene import Scene
 
 DEFAULT = "accuracy = 0.05 (default)"
 BEST = "everything on: accuracy = 0.005"

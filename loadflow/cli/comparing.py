@@ -26,6 +26,7 @@ from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.scenes import LoadFiles, SceneFile, read, tell_unused
 from loadflow.errors import LoadflowError
+from loadflow.quantities import three_digits
 
 
 @app.command()
@@ -79,15 +80,16 @@ def compare(
             {"page": str(found.page), "table": str(found.table)} | found.comparison.as_dict()
         )
     else:
-        out.print(found.comparison.conclusion, soft_wrap=True, markup=False)
+        for told in filter(None, (found.comparison.conclusion, found.comparison.reservations)):
+            out.print(told, soft_wrap=True, markup=False)
         heads = ("candidate", "limits", "loads may grow by", "governed by", "MWh a year", "thrust")
         rows = [
             (
                 one.name,
                 ("hold, but" if one.reservations else "hold") if one.holds else "broken",
-                f"{one.numbers['load_factor'].value:.3g} ×",
+                f"{three_digits(one.numbers['load_factor'].value)} ×",
                 one.governs,
-                f"{one.numbers['energy'].value:.3g}",
+                three_digits(one.numbers["energy"].value),
                 one.thrust,
             )
             for one in found.comparison.candidates

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
+from math import isnan
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -41,7 +43,8 @@ LoadFiles = Annotated[
 
 def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     """Read a scene, with other load files and under another name if they are given."""
-    from loadflow.scene.scene import read_scene, with_loads, with_name
+    from loadflow.scene.changed import with_loads, with_name
+    from loadflow.scene.scene import read_scene
 
     scene = read_scene(path)
     if loads or any(value is not None for value in reading.values()):
@@ -78,18 +81,21 @@ def run(
     check_workers()
     with progress(quiet=as_json) as show:
         show(f"reading {scene}", 0, 1)
-        from loadflow.running.executor import usable_cores
-        from loadflow.running.runner import run as carry_out
+        from loadflow.running.executor import executor, usable_cores
 
-        result = carry_out(
-            read(scene, loads, name, **reading),
-            out=out_folder,
-            workers=workers or usable_cores(),
-            scheduler=scheduler,
-            overwrite=overwrite,
-            progress=show,
-            profile=profile,
-        )
+        # before anything else: its processes read their modules for seconds, as this one does
+        with executor(workers or usable_cores(), scheduler) as where:
+            from loadflow.running.profile import Profile
+            from loadflow.running.runner import run_on
+
+            result = run_on(
+                nullcontext(where),
+                read(scene, loads, name, **reading),
+                out_folder,
+                overwrite=overwrite,
+                say=show,
+                profile=Profile() if profile else None,
+            )
     if as_json:
         paths = {"path": str(result.path), "report": str(result.report)}
         found = {"failures": result.failures, "flagged": result.flagged}
@@ -239,6 +245,8 @@ def _largest(sizes: Any) -> str:
     """Quantity that an effect moves most, and by how much."""
     if not sizes:
         return "-"
+    if untold := [quantity for quantity, size in sizes.items() if isnan(size)]:
+        return f"{untold[0]} not known"
     quantity = max(sizes, key=sizes.get)
     return f"{quantity} {percent(sizes[quantity])}" if sizes[quantity] else "nothing"
 

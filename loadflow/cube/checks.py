@@ -80,6 +80,11 @@ def check_case(case: xr.Dataset, source: str = "", name: str = "") -> None:
     source, name : str
         Names of file and case, for the messages.
 
+    Raises
+    ------
+    loadflow.errors.InputError
+        As `check_cube`.
+
     Examples
     --------
     >>> from loadflow.cube import check_case, make_case
@@ -159,6 +164,16 @@ def time_step(series: xr.Dataset | xr.DataArray) -> float:
     """Step, s, of a series with an equidistant coordinate ``time``, s, of two samples or more.
 
     Rounded to a nanosecond, so that series of one nominal step agree.
+
+    Parameters
+    ----------
+    series : xarray.Dataset or xarray.DataArray
+        Over ``time``.
+
+    Returns
+    -------
+    float
+        s.
 
     Examples
     --------

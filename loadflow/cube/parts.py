@@ -49,6 +49,18 @@ def iter_cases(cube: Cube) -> Iterator[tuple[str, xr.Dataset]]:
 def case_named(cube: Cube, name: str) -> xr.Dataset:
     """Return one case of a cube, without loading its series or looking at the others.
 
+    Parameters
+    ----------
+    cube : xarray.Dataset or xarray.DataTree
+        The cube.
+    name : str
+        Of the case.
+
+    Returns
+    -------
+    xarray.Dataset
+        The case.
+
     Raises
     ------
     loadflow.errors.InputError

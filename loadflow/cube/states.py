@@ -45,6 +45,18 @@ def standing(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray
 def standing_share(case: xr.Dataset, rated_speed: float | None = None) -> xr.DataArray:
     """Share of the time during which the rotor stands or idles; see `standing`.
 
+    Parameters
+    ----------
+    case : xarray.Dataset
+        One case, with `speed` over ``time``.
+    rated_speed : float, optional
+        Of the rotor, rad/s; see `standing`.
+
+    Returns
+    -------
+    xarray.DataArray
+        Share, 0 … 1.
+
     Examples
     --------
     >>> from loadflow.cube import make_series, standing_share

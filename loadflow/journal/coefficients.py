@@ -155,6 +155,11 @@ def coefficient_table(coefficients: xr.Dataset) -> str:
     coefficients : xarray.Dataset
         As `rotor_coefficients` gives it.
 
+    Returns
+    -------
+    str
+        Lines of text.
+
     Raises
     ------
     InputError

@@ -133,6 +133,11 @@ def best_crown(
     strict : bool
         Raise where the search does not end.
 
+    Returns
+    -------
+    BestCrown
+        Crown, bearing with it, and what it reaches.
+
     Raises
     ------
     loadflow.errors.InputError

@@ -40,9 +40,7 @@ _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
 _BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
-_REDUCED = frozenset(
-    _LINE | _SHELLS | {"shape", "crown", "contact", "heat", "film_heat", "turbulence", "supply"}
-)
+_REDUCED = frozenset(_LINE | _SHELLS | _FLOW | {"shape", "crown", "heat", "film_heat", "supply"})
 
 
 @dataclass(frozen=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from math import isnan
 
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import gains, ladder, measured
@@ -26,7 +27,7 @@ Errors = dict[str, dict[str, float | None]]
 
 @dataclass(frozen=True)
 class Part:
-    """What one rung or one effect left out adds to the error of an answer; None: not measured."""
+    """What one rung or one effect left out adds to the error of an answer; None: not known."""
 
     model: str
     effect: Effect | None
@@ -154,7 +155,11 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
         speed = of("rolling.friction", "slowest speed", *_SPEED)
         reached["viscosity ratio"] = None if speed is None else SLOW_POWER * speed
         kappa, aged = (
-            sum(known.size(effect, name) for effect in _left_out(scene, "rolling"))
+            total(
+                Part("rolling", effect, None if isnan(size) else size)
+                for effect in _left_out(scene, "rolling")
+                for size in [known.size(effect, name)]
+            )
             for name in ("viscosity ratio", "modified life")
         )
         reached["viscosity ratio"] = _plus(reached["viscosity ratio"], kappa)
@@ -202,7 +207,8 @@ def of_link(
     for effect in _left_out(scene, link.model):
         size = known.size(effect, link.quantity)
         if size:
-            yield Part(link.model, effect, None if gain is None else size * gain)
+            error = None if gain is None or isnan(size) else size * gain
+            yield Part(link.model, effect, error)
 
 
 def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:

@@ -18,6 +18,7 @@ from threadpoolctl import threadpool_limits
 from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
 from loadflow.planning.asked import Asked, changes, resting, tried, without
+from loadflow.planning.choice import Choice
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
@@ -123,7 +124,7 @@ def pilot(
     say: Report = lambda stage, done, total: None,
     outcomes: Outcomes = in_turn,
     effort: Effort | None = None,
-    before: Callable[[Questions], None] = lambda questions: None,
+    before: Callable[[Questions, Choice], None] = lambda questions, choice: None,
     brief: bool = False,
 ) -> EffectVerdict | None:
     """Measure the effects of a scene.
@@ -140,7 +141,8 @@ def pilot(
     effort : Effort, optional
         How much is measured; None: what goes with the expected time of the run.
     before : callable
-        Called with the questions before they are asked: a runner compiles what they call.
+        Called with the questions before they are asked, and with the models expected without them:
+        a runner compiles what they call.
     brief : bool
         Whether the least effort asks that alone on which the choice of models hangs.
 
@@ -158,12 +160,14 @@ def pilot(
     if not scene.asks:
         return None
     cases = tuple(list_cases(scene))
-    chosen, known = _expected(scene, cases, solving=False)
+    choice, known = _expected(scene, cases, solving=False)
+    chosen = choice.scene
     worth = list(_worth_measuring(scene, chosen, known))
     effort = effort or effort_for(chosen, worth, cases)
     brief = brief and not effort.thorough
     if brief:  # indicators that solve films cost less than what they may settle
-        chosen, known = _expected(scene, cases, solving=True)
+        choice, known = _expected(scene, cases, solving=True)
+        chosen = choice.scene
         worth = list(_worth_measuring(scene, chosen, known))
     if not effort.thorough:
         worth = [
@@ -180,7 +184,7 @@ def pilot(
         return None
     looked_at = hardest(scene, cases)[: effort.cases]
     questions = Questions(chosen, effects, effort.duration, tuple(looked_at), settled)
-    before(questions)
+    before(questions, choice)
     say("pilot", 0, len(looked_at))
     measured: dict[Case, Found] = {}
     work = partial(measure, questions)
@@ -228,10 +232,10 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
     return EFFORTS[-1]
 
 
-def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Scene, Estimates]:
+def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Choice, Estimates]:
     """Models that a run has without a pilot, and what indicators say of their effects."""
-    chosen = chosen_models(scene, cases, solving=solving).scene
-    return chosen, estimates(chosen, _stages(chosen), cases, solving=solving)
+    choice = chosen_models(scene, cases, solving=solving)
+    return choice, estimates(choice.scene, _stages(choice.scene), cases, solving=solving)
 
 
 def _stages(scene: Scene) -> list[str]:
@@ -244,7 +248,8 @@ def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[
     least = min(scene.allowed(result) for result in scene.results)
     for effect in concerned(chosen, _stages(chosen)):
         sizes = known.sizes(effect).values()
-        matters = not sizes or max(sizes) > WORTH * least or effect.is_on(scene)
+        little = bool(sizes) and all(size <= WORTH * least for size in sizes)  # NaN is none
+        matters = not little or effect.is_on(scene)
         both = switched(chosen, effect, not effect.is_on(chosen)) is not None
         if matters and both and effect.probed in PROBES:
             yield effect
@@ -395,7 +400,9 @@ def _all_on(
         return together, best
     together = scene
     for effect in effects:  # one by one: which of them cannot be?
-        together = switched(together, effect, False) or together
+        left = switched(together, effect, False)
+        if left is not None and switched(left, effect, True) is not None:  # not a stated table
+            together = left
     best = tried(answers, together)
     for effect in effects:
         more = switched(together, effect, True)

@@ -131,7 +131,6 @@ def make_plan(
     scene: Scene,
     refined: Iterable[str] = (),
     verdict: EffectVerdict | None = None,
-    solving: bool = True,
 ) -> Plan:
     """Choose the stages that the wanted results need, and their models.
 
@@ -143,9 +142,6 @@ def make_plan(
         Models and effects that were found too coarse or missing, once for each better one to take.
     verdict : EffectVerdict, optional
         What a pilot of this scene measured; without it the indicators of the effects count.
-    solving : bool
-        Whether films are solved for indicators that need them; without, these effects count for
-        nothing: what is expected before a pilot measures them.
 
     Returns
     -------
@@ -158,7 +154,11 @@ def make_plan(
         The scene's load files do not exist or cannot be told apart.
     """
     cases = tuple(list_cases(scene))
-    choice = chosen_models(scene, cases, refined, verdict, solving)
+    return plan_of(scene, chosen_models(scene, cases, refined, verdict), cases)
+
+
+def plan_of(scene: Scene, choice: Choice, cases: tuple[Case, ...]) -> Plan:
+    """Return the plan of models that are chosen already; else as `make_plan`."""
     needed = needed_stages(choice.scene)
     steps: dict[str, Step] = {}
     for name, stage in STAGES.items():
@@ -189,7 +189,11 @@ def chosen_models(
     verdict: EffectVerdict | None = None,
     solving: bool = True,
 ) -> Choice:
-    """Return the models of a plan, the rest of it aside."""
+    """Return the models of a plan, the rest of it aside.
+
+    Not `solving`: indicators that solve films say nothing, and their effects count for nothing, as
+    is expected before a pilot measures them.
+    """
     stages = needed_stages(scene)
     known = estimates(scene, _in_order(stages), cases, verdict, solving)
     return refine(choose(scene, _in_order(stages), cases, known), refined)

@@ -37,10 +37,10 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
                     choice.scene, result, missing[0], links[missing[0]], choice.estimates
                 )
             ]
-            unknown = [part.model for part in parts if part.share is None]
+            unknown = next(part for part in parts if part.share is None)
             said.append(
                 f"{result}: {', '.join(missing)} not known to hold: "
-                f"{_rung_in_words(choice.scene, unknown[0])} was not measured"
+                f"{_unknown_in_words(wanted, choice, unknown)}"
             )
         if over:
             worst = max(over, key=over.__getitem__)
@@ -52,6 +52,13 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
                 f"({percent(most.share or 0.0)}): {_in_words(wanted, choice, most)}"
             )
     return said
+
+
+def _unknown_in_words(wanted: Scene, choice: Choice, part: Part) -> str:
+    if part.effect is None:
+        return f"{_rung_in_words(choice.scene, part.model)} was not measured"
+    why = part.effect.untold or "how large it is was not measured"
+    return f"{_in_words(wanted, choice, part)}; {why}"
 
 
 def _asked(wanted: Scene, allowed: float) -> str:

@@ -22,6 +22,11 @@ def film_series(samples: xr.Dataset) -> Figure:
         `eccentricity_ratio`, `minimum_film` and `maximum_pressure` over `time`: an orbit, or the
         samples of a run.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> from loadflow.journal import Film, JournalBearing, Lubricant
@@ -52,6 +57,11 @@ def orbit(samples: xr.Dataset) -> Figure:
         `eccentricity` (…, 2), m, along the load (down) and across it, and `minimum_film`; the
         clearance is its attribute ``radial_clearance``, or follows from `eccentricity_ratio`.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> from loadflow.journal import Film, JournalBearing, Lubricant
@@ -81,6 +91,11 @@ def clearance_circle(place: ArrayLike, film: ArrayLike | None = None) -> Figure:
         Eccentricity over clearance: down, and to the left.
     film : array_like (n,), optional
         Smallest film, µm, as a colour.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Examples
     --------
@@ -120,6 +135,11 @@ def pressure(
     gap : array_like (n, m), optional
         m.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> import numpy as np
@@ -158,6 +178,11 @@ def pads(films: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]) -> Figure:
         By title: angle of the nodes (pads, n), rad; their distance (m,) from the axis or the apex,
         m; pressure (pads, n, m), Pa.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> import numpy as np
@@ -186,6 +211,18 @@ def pads(films: Mapping[str, tuple[ArrayLike, ArrayLike, ArrayLike]]) -> Figure:
 def pressure_around(angle: ArrayLike, pressure: ArrayLike) -> Figure:
     """Draw the pressure of one ring of cells around the shaft, Pa over rad.
 
+    Parameters
+    ----------
+    angle : array_like (n,)
+        Of the cells, rad.
+    pressure : array_like (n,)
+        Pa.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> len(pressure_around([0.0, 2.0, 4.0], [1e6, 2e6, 0.0]).axes)
@@ -199,6 +236,18 @@ def pressure_around(angle: ArrayLike, pressure: ArrayLike) -> Figure:
 
 def gap_around(angle: ArrayLike, gap: ArrayLike) -> Figure:
     """Draw the gap of one ring of cells around the shaft, m over rad.
+
+    Parameters
+    ----------
+    angle : array_like (n,)
+        Of the cells, rad.
+    gap : array_like (n,)
+        m.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Examples
     --------
@@ -220,6 +269,11 @@ def coefficients(speed: ArrayLike, stiffness: ArrayLike, damping: ArrayLike) -> 
         rad/s.
     stiffness, damping : array_like (n, 2, 2) or (n, 4, 4)
         N/m and N s/m; those of tilts are not drawn.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Raises
     ------
@@ -258,6 +312,11 @@ def stribeck(curve: xr.Dataset) -> Figure:
     ----------
     curve : xarray.Dataset
         Of `loadflow.journal.stribeck`.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Examples
     --------

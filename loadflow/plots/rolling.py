@@ -27,6 +27,11 @@ def element_forces(
     rows : int
         Rows of the bearing: the groups share this many frames.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> import numpy as np
@@ -48,6 +53,11 @@ def contact_pressure(angle: ArrayLike, pressure: ArrayLike, names: Sequence[str]
     names : sequence of str, optional
         Of the groups.
 
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
+
     Examples
     --------
     >>> import numpy as np
@@ -68,6 +78,11 @@ def rings(angle: ArrayLike, displacement: ArrayLike, names: Sequence[str] = ()) 
         Outward, m; inward is negative, and drawn inside of the circle of 0.
     names : sequence of str, optional
         Of the groups.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        The figure.
 
     Examples
     --------

@@ -38,6 +38,18 @@ STYLE: Any = {
 def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, str]:
     """Return values in the unit that is usual in drawings, and that unit.
 
+    Parameters
+    ----------
+    data : xarray.DataArray
+        Values with the attribute `units`.
+    units : str, optional
+        In place of that attribute.
+
+    Returns
+    -------
+    tuple of (ndarray, str)
+        Values and unit.
+
     Examples
     --------
     >>> import xarray as xr
@@ -118,6 +130,11 @@ def figure(
     **keys
         Of ``Figure.subplots``.
 
+    Returns
+    -------
+    tuple
+        The figure, and its axes as ``Figure.subplots`` gives them.
+
     Examples
     --------
     >>> from loadflow.plots import figure
@@ -155,6 +172,16 @@ def _laid_out(drawing: Figure) -> None:
 def to_png(drawing: Figure) -> str:
     """Return a figure as a ``data:`` address, so that the page needs no other file.
 
+    Parameters
+    ----------
+    drawing : matplotlib.figure.Figure
+        The figure.
+
+    Returns
+    -------
+    str
+        ``data:image/png;base64,…``
+
     Examples
     --------
     >>> from loadflow.plots import figure, to_png
@@ -178,6 +205,16 @@ NOTHING: dict[str, Any] = dict.fromkeys(("Creator", "Date", "Format", "Type"))
 
 def to_svg(drawing: Figure) -> str:
     """Return a figure as an ``<svg>`` element that scales with the page, its text as text.
+
+    Parameters
+    ----------
+    drawing : matplotlib.figure.Figure
+        The figure.
+
+    Returns
+    -------
+    str
+        The element.
 
     Examples
     --------

@@ -78,7 +78,9 @@ def aliases(program: str) -> Aliases:
     program : {"openfast", "bladed", "hawc2", "csv"}
         Key of ``channels.toml``.
     """
-    table = tomllib.loads(files("loadflow.data").joinpath("channels.toml").read_text())[program]
+    table = tomllib.loads(files("loadflow.data").joinpath("channels.toml").read_text("utf-8"))[
+        program
+    ]
     frames = {
         frame: {key: tuple(names) for key, names in table.get(frame, {}).items()}
         for frame in ("fixed", "rotating")

@@ -85,6 +85,11 @@ def amplitude_spectrum(
     amplitude : ndarray, complex, same shape
         A exp(iφ) of A cos(2πft + φ).
 
+    Raises
+    ------
+    InputError
+        `points` is less than n.
+
     Examples
     --------
     >>> import numpy as np

@@ -83,6 +83,21 @@ class Reduced:
 def number_of_classes(n: int) -> int:
     """Classes per axis for `n` values: √n up to 1000, 10 log10 n above (4.30), rounded.
 
+    Parameters
+    ----------
+    n : int
+        Number of values.
+
+    Returns
+    -------
+    int
+        At least 1.
+
+    Raises
+    ------
+    InputError
+        There are no values.
+
     Examples
     --------
     >>> number_of_classes(400), number_of_classes(24000)
@@ -103,6 +118,16 @@ def class_edges(x: Floats, grid: int | ArrayLike) -> Floats:
     grid : int or array_like
         Number of equal classes, or ascending edges. The last of the edges made here lies one
         rounding step above the largest value, so that the half-open last class holds it.
+
+    Returns
+    -------
+    ndarray
+        Edges, one more than classes.
+
+    Raises
+    ------
+    InputError
+        Edges that do not ascend, values outside of them, or no class.
 
     Examples
     --------

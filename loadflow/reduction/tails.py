@@ -227,6 +227,11 @@ def long_term_extreme(
     seed : int
         Of the bootstrap.
 
+    Returns
+    -------
+    LongTermExtreme
+        Level, its interval, and the share of each wind speed.
+
     Raises
     ------
     InputError

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from loadflow.quantities import HOURS_PER_YEAR, percent, scale_of
+from loadflow.quantities import HOURS_PER_YEAR, percent, scale_of, three_digits
 from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
@@ -16,19 +16,30 @@ from loadflow.report.sketch import sketch
 class Cell:
     """A cell of the table: the value, what is known of its error, and where it is from.
 
-    `link` leads to the extreme in the depth of the page, `missing` says what is not known of its
-    error, and why.
+    `around` has what seeds, models and tolerances make of it, `missing` which of them are not
+    known, and why; `link` leads to the extreme in the depth of the page, `hint` says why a kind of
+    bearing has no such number.
     """
 
     value: str
-    around: str = ""
-    band: str = ""
+    around: tuple[tuple[str, str], ...] = ()
     limit: str = ""
     where: str = ""
     note: str = ""
     state: str = ""
     link: str = ""
+    hint: str = ""
     missing: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class Row:
+    """A quantity of all candidates; `limit` is that of all that have one, where it is the same."""
+
+    name: str
+    unit: str
+    limit: str
+    cells: tuple[Cell, ...]
 
 
 def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
@@ -47,9 +58,10 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         The file.
     """
     candidates = data["candidates"]
-    groups: dict[str, list[Any]] = {}
+    groups: dict[str, list[Row]] = {}
     silent = []
     behind: dict[str, list[str]] = {}
+    above: Row | None = None
     for one in candidates:
         behind.setdefault(one["references"], []).append(one["title"])
     for key, about in data["quantities"].items():
@@ -57,7 +69,8 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         if (row := _row(key, data)) is None:
             continue
         if (why := _tells_nothing(key, data)) is None:
-            rows.append(row)
+            rows.append(row if above is None else _without_notes_of(above, row))
+            above = row
         else:
             silent.append(f"{about['name']} ({why})")
     return write_filled(
@@ -75,22 +88,34 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
     )
 
 
-def _reasons(groups: Mapping[str, list[Any]]) -> dict[str, int]:
+def _reasons(groups: Mapping[str, list[Row]]) -> dict[str, int]:
     """Why numbers lack an interval, an error or a band: each reason once, with its number."""
-    cells = (cell for rows in groups.values() for *_, own in rows for cell in own)
+    cells = (cell for rows in groups.values() for row in rows for cell in row.cells)
     found = dict.fromkeys(why for cell in cells for _, why in cell.missing)
     return {why: k for k, why in enumerate(found, 1)}
 
 
-def _row(key: str, data: Mapping[str, Any]) -> tuple[str, str, list[Cell]] | None:
-    """Name, unit and cells of a quantity; None where no candidate has it, or could have it."""
+def _row(key: str, data: Mapping[str, Any]) -> Row | None:
+    """A quantity of all candidates; None where none has it, or could have it."""
     about = data["quantities"][key]
     numbers = [one["numbers"].get(key) for one in data["candidates"]]
     names = [f"{one['name']}.{key}" for one in data["candidates"]]
     cells = [_cell(number, name, about["at_most"]) for number, name in zip(numbers, names)]
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
-    return about["name"], about["unit"], cells
+    limits = {cell.limit for cell in cells if cell.state or cell.around}
+    shared = limits.pop() if len(limits) == 1 else ""
+    own = [replace(cell, limit="") for cell in cells] if shared else cells
+    return Row(about["name"], about["unit"], shared, tuple(own))
+
+
+def _without_notes_of(above: Row, row: Row) -> Row:
+    """A row whose cells do not repeat the remark of the cell above them."""
+    cells = (
+        replace(cell, note="") if cell.note == over.note else cell
+        for cell, over in zip(row.cells, above.cells)
+    )
+    return replace(row, cells=tuple(cells))
 
 
 def _tells_nothing(key: str, data: Mapping[str, Any]) -> str | None:
@@ -113,39 +138,41 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
     """A number of a candidate as it stands in the table; `name` is that of its extreme."""
     if number is None or (number["value"] is None and not number["note"]):
         return Cell("")
+    if _makes_no_sense(number):
+        return Cell("n/a", hint=number["note"].removeprefix("n/a: "))
     if number["value"] is None:
         return Cell("–", where=number["note"])
-    error = "" if number["error"] is None else _by_models(number["error"])
-    seeds = "" if number["low"] is None else _by_seeds(number)
+    around = [] if number["low"] is None else [("seeds", _ends(number, "low", "high"))]
+    if number["error"] is not None:
+        around.append(("models", _by_models(number["error"])))
+    if number["tolerance_low"] is not None:
+        band = _ends(number, "tolerance_low", "tolerance_high")
+        around.append((_BAND["tolerances"], f"{band}, {number['tolerance']}"))
     sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
-    band = (
-        ""
-        if number["tolerance_low"] is None
-        else f"{short(number['tolerance_low'])} … {short(number['tolerance_high'])} by tolerances, "
-        f"most by {number['tolerance']}"
-    )
-    around = ", ".join(part for part in (seeds, error) if part)
     link = f"#{name}" if _is_extreme(number) else ""
     where, note = _where(number | {"note": ""}), number["note"]
-    missing = tuple(number.get("missing", {}).items())
-    return Cell(short(number["value"]), around, band, limit, where, note, state, link, missing)
+    missing = tuple((_BAND.get(what, what), why) for what, why in number["missing"].items())
+    value = three_digits(number["value"])
+    return Cell(value, tuple(around), limit, where, note, state, link, "", missing)
+
+
+_BAND = {"tolerances": "tol."}
 
 
 def _by_models(error: float) -> str:
     """An error as a share; one that leaves no digit of the value as the factor that it is."""
-    told = f"± {percent(error)}" if error < _FACTOR else f"within a factor of {short(1 + error)}"
-    return f"{told} by models"
+    return f"± {percent(error)}" if error < _FACTOR else f"within a factor of {short(1 + error)}"
 
 
 _FACTOR = 2.0  # share from which an error is told as a factor
 
 
-def _by_seeds(number: Mapping[str, Any]) -> str:
-    """The interval; in words where no other choice of seeds moves the digits that are shown."""
-    value, low, high = (short(number[end]) for end in ("value", "low", "high"))
-    return "the same by seeds" if value == low == high else f"{low} … {high} by seeds"
+def _ends(number: Mapping[str, Any], low: str, high: str) -> str:
+    """An interval; in words where it does not move the digits that are shown."""
+    value, down, up = (three_digits(number[end]) for end in ("value", low, high))
+    return "the same" if value == down == up else f"{down}\u2009…\u2009{up}"
 
 
 def _where(number: Mapping[str, Any]) -> str:
@@ -214,7 +241,7 @@ def _extremes(
                 f"{one['name']}.{key}",
                 (
                     data["quantities"][key]["name"],
-                    f"{short(number['value'])} {unit}".rstrip(),
+                    f"{three_digits(number['value'])} {unit}".rstrip(),
                     number["place"],
                     number["case"],
                     "" if number["time"] is None else f"{number['time']:.2f} s",

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from loadflow.plots.style import to_svg
-from loadflow.report.compare_page import short
+from loadflow.quantities import three_digits
 from loadflow.report.design_figures import front_figure, map_figure
 from loadflow.report.page import write_filled
 
@@ -66,7 +66,7 @@ def _rows(data: Mapping[str, Any], best: str | None) -> Any:
         about = data["quantities"][key]
         factor = data["numbers"].get(key, {"shown": [1.0]})["shown"][0]
         fast = [
-            "" if one.get(key) is None else short(factor * one[key])
+            "" if one.get(key) is None else three_digits(factor * one[key])
             for one in (data["given"], numbers)
         ]
         run = [_run_value(one, key) for one in runs]
@@ -81,16 +81,16 @@ def _run_value(run: Mapping[str, Any] | None, key: str) -> str:
         return ""
     bounds = ""
     if number["low"] is not None:
-        bounds = f" ({short(number['low'])} … {short(number['high'])})"
-    return f"{short(number['value'])}{bounds}"
+        bounds = f" ({three_digits(number['low'])} … {three_digits(number['high'])})"
+    return f"{three_digits(number['value'])}{bounds}"
 
 
 def _told_by_runs(data: Mapping[str, Any]) -> Any:
     """Name, margins, their ratio and limits of each design that was run, as they were."""
     for one in data["told_by_runs"]:
-        fast, run = (("–" if one[k] is None else short(one[k])) for k in ("fast", "run"))
+        fast, run = (("–" if one[k] is None else three_digits(one[k])) for k in ("fast", "run"))
         both = one["fast"] and one["run"] is not None
-        share = short(one["run"] / one["fast"]) if both else "–"
+        share = three_digits(one["run"] / one["fast"]) if both else "–"
         name = "as given" if one["name"] == "start" else one["name"]
         limits = "hold" if one["holds"] else "broken: " + ("; ".join(one["broken"]) or "no answer")
         yield name, fast, run, share, limits, "good" if one["holds"] else "bad"
@@ -105,5 +105,5 @@ def _front(data: Mapping[str, Any]) -> Any:
     chosen = dict.fromkeys(round(k * (len(index) - 1) / max(count - 1, 1)) for k in range(count))
     for k in chosen:
         one = data["designs"][index[k]]
-        values = [short(one["numbers"][name]) for name in ("load_factor", "energy")]
+        values = [three_digits(one["numbers"][name]) for name in ("load_factor", "energy")]
         yield index[k] == data["best"], [*one["settings"], *values, one["governs"]]

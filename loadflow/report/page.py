@@ -225,6 +225,16 @@ def write_tables(folder: Path, sections: Sequence[Section]) -> list[Path]:
 def mark_of(path: Path) -> str | None:
     """Return the mark that a page was written with; None without a page or a mark.
 
+    Parameters
+    ----------
+    path : Path
+        The page.
+
+    Returns
+    -------
+    str or None
+        The mark.
+
     Examples
     --------
     >>> import tempfile

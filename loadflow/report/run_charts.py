@@ -64,14 +64,14 @@ def film_chart(
     """
     order = np.argsort(samples["time"].values, kind="stable")
     panels = []
-    for name, units, at in (
-        ("eccentricity_ratio", None, level),
-        ("minimum_film", "µm", None),
-        ("maximum_pressure", None, None),
+    for name, short, units, at in (  # a long name has no room beside a frame
+        ("eccentricity_ratio", "eccentricity ratio", None, level),
+        ("minimum_film", "smallest film", "µm", None),
+        ("maximum_pressure", "largest pressure", None, None),
     ):
         values, unit = readable(samples[name], units)
         said = samples[name].attrs["long_name"]
-        panels.append(Panel(_with_unit(said, unit), {said: values[order]}, at))
+        panels.append(Panel(_with_unit(short, unit), {said: values[order]}, at))
     reduced = samples.attrs.get("motion") == "quasi-static"
     label = "time, s (reduced series)" if reduced else "time, s"
     return Chart(caption, label, samples["time"].values[order], panels, fold, count)
@@ -197,16 +197,17 @@ def over_wind_speed(
             dims = [dim for dim in ("bearing",) if dim in found.dims]
             film = "µm" if name == "smallest_film" else None
             values, unit = readable(found.transpose(*dims, "case"), film)
-            labels = [str(b) for b in data["bearing"].values] if dims else ["largest"]
+            said = data[name].attrs["long_name"]
+            labels = [str(b) for b in data["bearing"].values] if dims else [said]
             lines = dict(zip(labels, np.atleast_2d(values)))
-            panels.append(Panel(_with_unit(data[name].attrs["long_name"], unit), lines))
+            panels.append(Panel(_with_unit(said, unit), lines))
     if cases:
         x = np.array([speeds[case] for case in cases])
         yield Chart(caption, "wind speed, m/s", x, panels, points=True, names=cases)
 
 
 def seed_verdicts(seeds: xr.Dataset, method: str, caption: str) -> Chart:
-    """P values of location and spread and the spectral difference over wind speed.
+    """P values of the tests over wind speed; a frame for each test that has some.
 
     Parameters
     ----------
@@ -222,6 +223,8 @@ def seed_verdicts(seeds: xr.Dataset, method: str, caption: str) -> Chart:
     alpha, panels = float(seeds.attrs["alpha"]), []
     for test in part["test"].values:
         p = part["pvalue"].sel(test=test).transpose("component", "group").values[:, order]
+        if np.isnan(p).all():  # as of the spectrum as printed, which is compared without a p
+            continue
         lines = {str(c): np.maximum(p[k], 1e-12) for k, c in enumerate(part["component"].values)}
         panels.append(Panel(f"p of {test}", lines, alpha, logarithmic=True))
     groups = part.isel(group=order)

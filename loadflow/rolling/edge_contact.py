@@ -8,6 +8,7 @@ Raceway and roller end together: the free end of the raceway, which softens edge
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal
 
@@ -16,16 +17,31 @@ from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.convergence import is_small, rounding_level, unresolved
+from loadflow.numerics.shown import Shown, in_words
+from loadflow.quantities import Quantity
 from loadflow.tribology.hertz import effective_modulus
 
 if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
     from loadflow.rolling.roller_raceways import RollerRaceways
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True)
-class EdgeContact:
+_SHOWN = {
+    "maximum_pressure": Quantity("p_max", "Pa", "largest pressure"),
+    "approach": Quantity("δ", "m", "approach of roller and raceway"),
+    "slice_forces": Quantity("q", "N", "force on each strip along the roller"),
+    "converged": Quantity("", "1", "whether the tolerance was met"),
+    "residual": Quantity("", "1", "difference of gap and approach over the approach"),
+    "iterations": Quantity("", "1", "steps"),
+}
+
+
+@dataclass(frozen=True, repr=False)
+class EdgeContact(Shown):
     """Contact of one roller with one raceway.
 
     Attributes
@@ -69,6 +85,40 @@ class EdgeContact:
         """Largest pressure, Pa."""
         return float(self.pressure.max())
 
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a contact."""
+        return _SHOWN
+
+    def to_dataset(self) -> xr.Dataset:
+        """Pressure over ``along`` and ``across``, and the numbers of the contact, with units."""
+        import xarray as xr
+
+        dims = {"slice_forces": "along"}
+        data = {n: (dims.get(n, ()), getattr(self, n), q.attributes) for n, q in _SHOWN.items()}
+        about = {"units": "Pa", "long_name": "pressure"}
+        place = {"units": "m", "long_name": "place from the middle of the roller"}
+        at = {n: (n, getattr(self, n), place) for n in ("along", "across")}
+        return xr.Dataset(data | {"pressure": (("along", "across"), self.pressure, about)}, at)
+
+    def plot(self) -> Figure:
+        """Draw the pressure over the contact, and its largest value along the roller."""
+        from loadflow import plots
+
+        drawing, (area, along) = plots.figure(1, 2, height=3.0)
+        x, y = 1e3 * self.along, 1e3 * self.across
+        shown = area.pcolormesh(x, y, self.pressure.T / 1e6, cmap="viridis", shading="nearest")
+        drawing.colorbar(shown, ax=area, label="pressure, MPa")
+        area.set(xlabel="along the roller, mm", ylabel="across, mm")
+        area.grid(False)
+        along.plot(x, self.pressure.max(axis=1) / 1e6)
+        along.set(xlabel="along the roller, mm", ylabel="largest pressure, MPa")
+        return drawing
+
+    def __repr__(self) -> str:
+        pressure, unit = in_words(np.array(self.maximum_pressure), "Pa")
+        said = "converged" if self.converged else "not converged"
+        return f"<EdgeContact, largest pressure {pressure} {unit}, {said}>"
+
     def edge_factor(self, share: float = 0.05) -> float:
         """Largest pressure in the outer `share` of the length at each end over that in the middle.
 
@@ -108,6 +158,11 @@ def edge_contact(
         Largest residual.
     max_iterations : int
         Steps allowed.
+
+    Returns
+    -------
+    EdgeContact
+        Pressure over the contact, force of each slice, and the approach.
 
     Raises
     ------

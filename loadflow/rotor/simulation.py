@@ -186,6 +186,20 @@ def simulate_condition(
 
     Parameters and result are those of `simulate`; `winds` are the options that made the condition.
 
+    Parameters
+    ----------
+    turbine, dt, run_in, base_seed, rung, options, field
+        As `simulate`.
+    case : Condition
+        The wind, one of `loadflow.wind.conditions`.
+    winds : WindOptions
+        Options that made the condition.
+
+    Returns
+    -------
+    xarray.Dataset
+        The case, as `simulate` gives it.
+
     Examples
     --------
     >>> from loadflow.rotor import simulate_condition

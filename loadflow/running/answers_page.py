@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.planning.budget import Answer
-from loadflow.quantities import fitting_unit, percent
+from loadflow.quantities import fitting_unit, four_digits, percent
 from loadflow.report import Table
 from loadflow.studies.tolerances import Band
 
@@ -41,7 +41,7 @@ def answer_row(one: Answer, banded: bool = False) -> list[str]:
     ends = (np.nan, np.nan) if one.band is None else one.band.of(one.value)
     size = largest(one.low, one.value, one.high, *ends)
     factor, unit = (1e6, "µm") if one.unit == "m" else fitting_unit(one.unit, size)
-    low, value, high = (f"{factor * number:.4g}" for number in (one.low, one.value, one.high))
+    low, value, high = (four_digits(factor * number) for number in (one.low, one.value, one.high))
     unit = "" if unit == "–" else f" {unit}"
     missing = ", ".join(f"{name} {percent(share)}" for name, share in (one.left_out or {}).items())
     return [
@@ -61,7 +61,7 @@ def _band(band: Band | None, factor: float, ends: tuple[float, float], unit: str
         return "none stated"
     if np.isnan(ends[0]):
         return "no answer at an end"
-    return f"{factor * ends[0]:.4g} … {factor * ends[1]:.4g}{unit}"
+    return f"{four_digits(factor * ends[0])} … {four_digits(factor * ends[1])}{unit}"
 
 
 def _tolerances(tables: dict[str, xr.Dataset]) -> Iterator[Table]:

@@ -19,7 +19,7 @@ from loadflow.scene.scene import Candidate, Scene
 from loadflow.storage import write_text
 from loadflow.studies.crowning import PlaceCrown, crowns_of
 from loadflow.studies.design_result import scene_with_bearings
-from loadflow.studies.design_space import written_places
+from loadflow.studies.design_space import with_collars, written_collars, written_places
 
 
 @dataclass(frozen=True)
@@ -113,5 +113,6 @@ def _scene(scene: Scene, name: str, candidate: Candidate, found: tuple[PlaceCrow
         geometry["relief"] = [*kept, *([told] if told else [])]
         places[one.place]["rung"] = "grid"
     friction = scene.friction.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+    places = with_collars(places, written_collars(candidate))
     words = "; ".join(", ".join(part for part in one.row[:4] if part) for one in found)
     return scene_with_bearings(scene, f"{scene.name}-{name}-crowned", places, friction, words)

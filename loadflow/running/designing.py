@@ -55,7 +55,7 @@ from loadflow.studies.design_result import (
     most_room,
     scene_of_best,
 )
-from loadflow.studies.design_space import Space, space_of, start_of
+from loadflow.studies.design_space import Space, space_of, start_of, written_collars
 from loadflow.studies.load_spectrum import VARIABLES, load_spectrum
 from loadflow.studies.shaft_through import BentShaft, fitting_shaft
 
@@ -170,12 +170,17 @@ def chosen_candidate(scene: Scene) -> tuple[str, Candidate]:
     Raises
     ------
     loadflow.errors.InputError
-        There is none of that name.
+        There is none of that name, or it has neither journal nor rolling bearings.
     """
     known, _ = candidates_for(scene)
     name = scene.design.candidate or next(iter(known))  # own bearings stand before sized ones
     if name not in known:
         raise InputError(f"design.candidate: {none_such('candidate', [name], known)}")
+    if known[name].journal is None and known[name].rolling is None:
+        raise InputError(
+            f"design.candidate = {name!r}: the search has fast models of journal and of rolling "
+            "bearings, and none of cones; loadflow compare runs them as they are"
+        )
     return name, known[name]
 
 
@@ -224,7 +229,19 @@ def _told(
 
 
 def _left_out(loads: SharedLoads, name: str, candidate: Candidate) -> str:
-    """What the fast models leave out of the films of the candidate as given, where it counts.
+    """What the fast models leave out of the candidate as given, where it counts."""
+    collars = " and ".join(written_collars(candidate))
+    told = (
+        f"the collar at {collars} stays as it is, and the fast models leave out its loss and its "
+        "limits; runs have both"
+        if collars
+        else ""
+    )
+    return "; ".join(filter(None, (told, _tilt_left_out(loads, name, candidate))))
+
+
+def _tilt_left_out(loads: SharedLoads, name: str, candidate: Candidate) -> str:
+    """How much of its films the tilt in the clearances takes, which fast models leave out.
 
     They bend the shaft. How it tilts in the clearances hangs on both films at once, and is in the
     runs that check, or in their errors.

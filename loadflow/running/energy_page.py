@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import four_digits
 from loadflow.report import Table
 
 ROOMS = ("journal", "thrust", "rolling")
@@ -38,8 +39,8 @@ def _cells(here: xr.Dataset, room: str) -> list[str]:
     power, loss = float(here["rotor_power"]), float(here[f"{room}_loss"])
     left = 100 * (1 - loss / power) if power > 0 else np.nan
     flow, rise = (here.get(f"{room}_{what}", np.nan) for what in ("flow", "oil_rise"))
-    values: list[Any] = [f"{power / 1e3:.4g}", f"{loss / 1e3:.4g}", f"{left:.5g}"]
+    values: list[Any] = [four_digits(power / 1e3), four_digits(loss / 1e3), f"{left:.5g}"]
     return ["-" if "nan" in text else text for text in values] + [
-        f"{factor * float(value):.4g}" if np.isfinite(float(value)) else "-"
+        four_digits(factor * float(value)) if np.isfinite(float(value)) else "-"
         for factor, value in ((6e4, flow), (1.0, rise))
     ]

@@ -10,6 +10,7 @@ import asyncio
 import logging
 import os
 import signal
+import sys
 import threading
 import warnings
 from collections.abc import Callable, Iterable, Iterator
@@ -21,14 +22,13 @@ from concurrent.futures import (
     as_completed,
 )
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager, suppress
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
 from threading import Thread
 from typing import Any, Protocol, TypeVar
 
 from loadflow.errors import InputError, LoadflowError, in_a_line
-from loadflow.planning.pilot import in_turn
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -69,6 +69,11 @@ def usable_cores() -> int:
     return os.cpu_count() or 1
 
 
+def _most_processes() -> int:
+    """Processes that a pool may have: Windows waits for 63 things at once, of which two are its."""
+    return 61 if sys.platform == "win32" else sys.maxsize
+
+
 @contextmanager
 def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
     """Yield where to work; no process of it is left when the block ends, however it ends.
@@ -82,7 +87,7 @@ def executor(workers: int, scheduler: str | None) -> Iterator[Executor]:
         with _client(scheduler) as client:
             yield _Cluster(client, scheduler)
     elif workers > 1:
-        processes = _Processes(workers)
+        processes = _Processes(min(workers, _most_processes()))
         try:
             yield processes
         finally:
@@ -100,6 +105,8 @@ class _Here:
     def outcomes(
         self, work: Callable[[Item], Outcome], items: Iterable[Item]
     ) -> Iterator[tuple[Item, Outcome | Lost]]:
+        from loadflow.planning.pilot import in_turn  # with all that a plan needs: late
+
         return in_turn(work, items)
 
 
@@ -167,8 +174,12 @@ class _Processes:
     ) -> dict[Future[Outcome], int]:
         if self._pool is None:
             # spawned, not forked: HDF5 and numba hold threads and locks that do not survive a fork
+            spawned = get_context("spawn")
             self._pool = ProcessPoolExecutor(
-                self.workers, get_context("spawn"), initializer=_start_worker
+                self.workers,
+                spawned,
+                initializer=_start_worker,
+                initargs=(spawned.Semaphore(max(1, usable_cores() - 1)),),
             )
         if hasattr(signal, "pthread_sigmask"):  # inherited: the keyboard is the parent's from birth
             signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
@@ -190,7 +201,9 @@ class _Processes:
 
 def _read_modules(_: int) -> None:
     """What a load case needs; a process that has it reads nothing again."""
-    import loadflow.running.cases  # noqa: F401
+    # the process that plans the run keeps a core: all others wait for it
+    with _reading:
+        import loadflow.running.cases  # noqa: F401
 
 
 def _ignore_errors_of(thread: Thread | None) -> None:
@@ -205,12 +218,20 @@ def _ignore_errors_of(thread: Thread | None) -> None:
         threading.excepthook = told
 
 
-def _start_worker() -> None:
+_reading: AbstractContextManager[Any] = nullcontext()
+"""Held by a process that reads its modules, see `_start_worker`."""
+
+
+def _start_worker(reading: AbstractContextManager[Any]) -> None:
     """One BLAS thread, as the cases run in parallel; the parent alone answers to the keyboard.
 
-    Its warnings stand between lines of progress, as words.
+    Its warnings stand between lines of progress, as words. `reading` lets as many processes read
+    their modules at a time as there are cores beside that of the parent.
     """
     from threadpoolctl import threadpool_limits
+
+    global _reading
+    _reading = reading
 
     warnings.formatwarning = in_a_line
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.plots.style import readable
+from loadflow.quantities import four_digits
 from loadflow.reduction import lifetime_equivalent_load
 from loadflow.report import Chart, Section, Table
 from loadflow.report.charts import CLOSE, SAMPLES
@@ -70,10 +71,10 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
             rows.append(
                 [
                     f"{label}, {unit}",
-                    *(f"{table[s].mean():.4g}" for s in ("mean", "std", "del")),
+                    *(four_digits(table[s].mean()) for s in ("mean", "std", "del")),
                     "-" if share is None else _of_lifetime(table["del"], share),
-                    f"{table['min'].min():.4g}",
-                    f"{table['max'].max():.4g}",
+                    four_digits(table["min"].min()),
+                    four_digits(table["max"].max()),
                 ]
             )
             if name != "speed":
@@ -82,9 +83,9 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
                 ultimate.append(
                     [
                         f"{label}, {unit}",
-                        f"{largest[k]:.4g}",
+                        four_digits(largest[k]),
                         f"{factors[k]:g}",
-                        f"{factors[k] * largest[k]:.4g}",
+                        four_digits(factors[k] * largest[k]),
                         str(data["case"].values[k]),
                     ]
                 )
@@ -104,7 +105,7 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
 
 def _of_lifetime(loads: np.ndarray, share: np.ndarray) -> str:
     """Damage-equivalent load of the lifetime."""
-    return f"{float(lifetime_equivalent_load(loads, share, SLOPE)):.4g}"
+    return four_digits(float(lifetime_equivalent_load(loads, share, SLOPE)))
 
 
 def _axis(part: xr.DataArray) -> int:

@@ -18,7 +18,7 @@ from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
-from loadflow.quantities import percent
+from loadflow.quantities import four_digits, percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
 from loadflow.report.page import Shown, write_tables
@@ -350,7 +350,7 @@ def _case_table(data: xr.Dataset) -> Table:
     if "not_converged" in data:
         counts = counts + data["not_converged"].transpose(*dims).values.reshape(-1, counts.shape[1])
     rows = [
-        [f"{case} {bearing}".strip(), *(f"{values[n][b, k]:.4g}" for n in values)]
+        [f"{case} {bearing}".strip(), *(four_digits(values[n][b, k]) for n in values)]
         for k, case in enumerate(data["case"].values)
         for b, bearing in enumerate(bearings)
     ]
@@ -374,7 +374,7 @@ def _check_section(check: xr.Dataset) -> Section:
     bad = frozenset(map(int, np.flatnonzero(doubtful)))
     text = (
         "A few load cases of this run, solved again by better models. Marked: more than the "
-        f"accuracy asked for, or {WARN:.0%} where none is, and films that no better model has."
+        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model has."
     )
     return Section("Check", text, [Table("", heads, rows, bad)])
 

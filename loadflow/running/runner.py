@@ -19,10 +19,10 @@ from threadpoolctl import threadpool_limits
 import loadflow
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.choice import can_refine, rungs_up
-from loadflow.planning.effects import EffectVerdict
+from loadflow.planning.choice import Choice, can_refine, refine, rungs_up
+from loadflow.planning.effects import EffectVerdict, concerned
 from loadflow.planning.pilot import Questions, pilot
-from loadflow.planning.plan import Plan, make_plan
+from loadflow.planning.plan import Plan, make_plan, needed_stages, plan_of
 from loadflow.running.cases import (
     Outcome,
     do_case,
@@ -48,7 +48,7 @@ from loadflow.running.warm_up import (
     told_as_called,
 )
 from loadflow.running.whole import finish_stages
-from loadflow.scene.cases import Case
+from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.stages.bores import told_bores
@@ -198,11 +198,16 @@ def _run(
     refined = refinements(folder, scene)
     compiled = 0.0
 
-    def compiles(questions: Questions) -> None:
+    def compiles(questions: Questions, choice: Choice) -> None:
         nonlocal compiled
         started = time.perf_counter()
-        solving = "thrust" not in questions.models  # else the pilot measures what they indicate
-        expected = partial(make_plan, scene, refined, solving=solving)
+
+        def expected() -> Plan:
+            solve = any(one.solves for one in concerned(choice.scene, needed_stages(choice.scene)))
+            if solve and "thrust" not in questions.models:  # else the pilot measures what they say
+                return make_plan(scene, refined)
+            return plan_of(scene, refine(choice, refined), tuple(list_cases(scene)))
+
         compile_for_pilot(questions, expected, where, say, folder)
         compiled = time.perf_counter() - started
 

@@ -40,7 +40,8 @@ def seed_section(
         heads = ["DLC", "wind, m/s", "seeds", "component"]
         heads += [f"p {test}" for test in part["test"].values] + ["verdict"]
         tables.append(Table(f"Equality of seeds, {method}", heads, rows, fold=True))
-        caption = f"Tests, {method}: a point below the dashed line is not equal."
+        below = "a point below the dashed line is not equal; p below 1e-12 is drawn there"
+        caption = f"Tests, {method}: {below}."
         pictures.append(seed_verdicts(seeds, str(method), caption))
     pictures += _spread(folder, manifest, force_of)
     text = (

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import four_digits
 from loadflow.report import Table
 from loadflow.wind.cases import stands_or_starts
 
@@ -58,4 +59,4 @@ def start_tables(data: xr.Dataset) -> Iterator[Table]:
 
 
 def _said(value: float) -> str:
-    return f"{value:.4g}" if np.isfinite(value) else "-"
+    return four_digits(value) if np.isfinite(value) else "-"

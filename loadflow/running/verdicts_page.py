@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import xarray as xr
 
-from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, scale_of
+from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, four_digits, scale_of
 from loadflow.report import Table
 from loadflow.running.answers_page import largest
 from loadflow.verdict import Verdict, from_dataset
@@ -56,11 +56,11 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     zero, scale = scale_of(unit)
     if np.isfinite(verdict.limit):
         sign = "≤" if verdict.sense == "at most" else "≥"
-        limit = f"{sign} {factor * (verdict.limit - zero):.4g} {scale}".rstrip()
+        limit = f"{sign} {four_digits(factor * (verdict.limit - zero))} {scale}".rstrip()
     if np.isfinite(verdict.time):
         at += f", {verdict.time:.1f} s"
     value, margin = (
-        "-" if np.isnan(number) else f"{factor * number:.4g} {one}".rstrip()
+        "-" if np.isnan(number) else f"{four_digits(factor * number)} {one}".rstrip()
         for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
     )
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
@@ -76,11 +76,11 @@ def lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
         for name in data[kind].values.tolist() if kind in data.dims else ():
             own = {n: data[n].sel({kind: name}) for n in data.data_vars if kind in data[n].dims}
             life, modified = (
-                f"{float(own[n]) / HOURS_PER_YEAR:.4g}" if n in own else "-"
+                four_digits(float(own[n]) / HOURS_PER_YEAR) if n in own else "-"
                 for n in ("life_hours", "modified_life_hours")
             )
             energy = own.get(f"{kind}_energy")
-            spent = "-" if energy is None else f"{float(energy) / 3.6e9:.4g}"
+            spent = "-" if energy is None else four_digits(float(energy) / 3.6e9)
             rows.append([f"{kind} {name}", life, modified, spent])
     heads = ["over all load cases", "life L10h, years", "modified life L10mh, years"]
     yield Table("Lifetime", [*heads, "energy, MWh a year"], rows)

@@ -95,6 +95,16 @@ class Case:
 def list_cases(scene: Scene) -> list[Case]:
     """Return the load cases of a scene, weighted by their share of the lifetime.
 
+    Parameters
+    ----------
+    scene : Scene
+        The scene.
+
+    Returns
+    -------
+    list of Case
+        In the order of load case, wind speed and seed; of files, in that of the files.
+
     Raises
     ------
     loadflow.errors.InputError

@@ -48,7 +48,8 @@ def message(
         elif item["type"] == "missing":
             lines.append(f"{source}: {key}: this key is missing")
         elif item["type"] == "value_error":
-            lines.append(f"{source}: {key}: {reason}")
+            several = reason.splitlines() if key == "scene" else [reason]  # of many bearings
+            lines += [f"{source}: {key}: {one}" for one in several]
         elif item["type"] in _NO_TABLE:
             known = _known(item["loc"], _schema(model))
             keys = ", ".join(path for path, name in known if path == name)
@@ -58,6 +59,38 @@ def message(
             near = meant(str(item["input"]), re.findall("'(.*?)'", reason)) if _listed(item) else ""
             lines.append(f"{source}: {key} = {shown(item['input'])}: {reason}{near}")
     return "\n".join(lines)
+
+
+def beside_bearings(
+    error: ValidationError, data: Mapping[str, Any], source: str, model: type[BaseModel]
+) -> str:
+    """What else is wrong in a scene whose bearings could not be read, which ends all checks.
+
+    Parameters
+    ----------
+    error : pydantic.ValidationError
+        What pydantic found.
+    data : mapping
+        The scene as it is written.
+    source : str
+        File of the scene.
+    model : type
+        Class of scenes.
+
+    Returns
+    -------
+    str
+        Further lines; empty where the bearings were read.
+    """
+    rest = {key: value for key, value in data.items() if key not in ("bearings", "candidates")}
+    if len(rest) == len(data) or any(item["loc"] for item in error.errors()):
+        return ""
+    try:
+        model.model_validate(rest)
+    except ValidationError as other:
+        if all(item["loc"] for item in other.errors()):  # else for want of these bearings
+            return "\n" + message(other, source, {}, model)
+    return ""
 
 
 @cache

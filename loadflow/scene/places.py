@@ -7,7 +7,7 @@ here one form becomes the other.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -84,24 +84,37 @@ def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
     ------
     ValueError
         No mapping, no or an unknown kind, two bearings of one room at a place, or `like` a place
-        that is not there.
+        that is not there; all that is wrong, one bearing a line.
     """
     name = ".".join(map(str, where))
     if not isinstance(places, Mapping) or not places:
         raise ValueError(f"{name}: needs a table for each place, such as [{name}.N]")
     found = Sections()
-    for place, location, data in _stated(places, where):
-        told = ".".join(map(str, location))
-        kind = data.pop("kind", None)
-        if kind not in (*PLACE_KINDS, *KINDS):
-            raise ValueError(f"{told}.kind: {not_one_of(kind, PLACE_KINDS)}")
-        if kind == JOURNAL:
-            _add_journal(found, place, location, data)
-        elif kind in AXIAL:
-            _add_axial(found, place, location, data | {"kind": kind})
-        else:
-            _add_rolling(found, place, location, data, _REGISTERED.get(kind, kind))
+    wrong = []
+    for place, stated in places.items():
+        several = isinstance(stated, list)
+        for number, data in enumerate(stated if several else [stated]):
+            location = (*where, place, number) if several else (*where, place)
+            try:
+                _add(found, place, location, _stated(places, place, location, data))
+            except ValueError as error:
+                wrong.append(str(error))
+    if wrong:
+        raise ValueError("\n".join(wrong))
     return found
+
+
+def _add(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:
+    kind = data.pop("kind", None)
+    if kind not in (*PLACE_KINDS, *KINDS):
+        told = ".".join(map(str, location))
+        raise ValueError(f"{told}.kind: {not_one_of(kind, PLACE_KINDS)}")
+    if kind == JOURNAL:
+        _add_journal(found, place, location, data)
+    elif kind in AXIAL:
+        _add_axial(found, place, location, data | {"kind": kind})
+    else:
+        _add_rolling(found, place, location, data, _REGISTERED.get(kind, kind))
 
 
 def places_of(
@@ -140,28 +153,22 @@ def places_of(
     return {place: parts if place in several else parts[0] for place, parts in found.items()}
 
 
-def _stated(
-    places: Mapping[str, Any], where: Location
-) -> Iterator[tuple[str, Location, dict[str, Any]]]:
-    """Yield place, location and data of each bearing; `like` replaced by what it means."""
-    for place, stated in places.items():
-        several = isinstance(stated, list)
-        for number, data in enumerate(stated if several else [stated]):
-            location = (*where, place, number) if several else (*where, place)
-            told = ".".join(map(str, location))
-            if not isinstance(data, Mapping):
-                raise ValueError(f"{told} = {data!r}: must be a table with the key kind")
-            data = dict(data)
-            other = data.pop("like", None)
-            if other is not None:
-                model = places.get(other) if isinstance(other, str) else None
-                if other == place or not isinstance(model, Mapping) or "like" in model:
-                    raise ValueError(
-                        f"{told}.like = {other!r}: must be another place with one bearing of its "
-                        f"own, of {', '.join(p for p in places if p != place) or 'none'}"
-                    )
-                data = {**model, **data}
-            yield place, location, data
+def _stated(places: Mapping[str, Any], place: str, location: Location, data: Any) -> dict[str, Any]:
+    """Data of a bearing; `like` replaced by what it means."""
+    told = ".".join(map(str, location))
+    if not isinstance(data, Mapping):
+        raise ValueError(f"{told} = {data!r}: must be a table with the key kind")
+    data = dict(data)
+    other = data.pop("like", None)
+    if other is None:
+        return data
+    model = places.get(other) if isinstance(other, str) else None
+    if other == place or not isinstance(model, Mapping) or "like" in model:
+        raise ValueError(
+            f"{told}.like = {other!r}: must be another place with one bearing of its "
+            f"own, of {', '.join(p for p in places if p != place) or 'none'}"
+        )
+    return {**model, **data}
 
 
 def _add_journal(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:

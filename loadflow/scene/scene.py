@@ -31,7 +31,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime import Lifetime, check_per_year
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import message
+from loadflow.scene.messages import beside_bearings, message
 from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
@@ -360,6 +360,18 @@ def read_scene(path: str | Path) -> Scene:
 def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
     """Build a scene from a dictionary; `source` names it in messages.
 
+    Parameters
+    ----------
+    data : dict
+        What a scene file says, by section and key.
+    source : str
+        Name of it in messages.
+
+    Returns
+    -------
+    Scene
+        The scene, checked.
+
     Raises
     ------
     InputError
@@ -379,7 +391,8 @@ def make_scene(data: dict[str, Any], source: str = "scene") -> Scene:
         check_sizes(data, float, LARGEST, source)  # keys with a range of their own have told it
         return scene
     except ValidationError as error:
-        raise InputError(message(error, source, origins(data), Scene)) from error
+        told = message(error, source, origins(data), Scene)
+        raise InputError(told + beside_bearings(error, data, source, Scene)) from error
 
 
 def former_sections(path: str | Path) -> list[str]:
@@ -398,39 +411,6 @@ def former_sections(path: str | Path) -> list[str]:
 def _data(path: Path, stream: BinaryIO) -> dict[str, Any]:
     """What a scene file says, or the scene of a turbine alone."""
     return scene_of(path) if path.suffix.lower() in WINDIO else tomllib.load(stream)
-
-
-def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
-    """Return the scene with its load series read from `files` (names or glob patterns).
-
-    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
-
-    Raises
-    ------
-    InputError
-        A bad value among them.
-
-    Examples
-    --------
-    >>> from loadflow.scene import make_scene, with_loads
-    >>> scene = with_loads(make_scene({"name": "look"}), ["/data/runs/*.outb"], frame="rotating")
-    >>> scene.loads.source, scene.loads.frame
-    ('files', 'rotating')
-    """
-    given = {key: value for key, value in reading.items() if value is not None}
-    absolute = [str(Path(file).absolute()) for file in files]
-    try:
-        read = Loads.model_validate({"source": "files", "files": absolute} | given)
-    except ValidationError as error:
-        raise InputError(message(error, "loads", {}, Loads)) from error
-    update = {key: getattr(read, key) for key in ("source", "files", *given)}
-    return scene.model_copy(update={"loads": scene.loads.model_copy(update=update)})
-
-
-def with_name(scene: Scene, name: str) -> Scene:
-    """Return the scene under another name, which is checked as that of a file is."""
-    make_scene({"name": name}, "name of the run")
-    return scene.model_copy(update={"name": name})
 
 
 def _with_scaled_shaft(data: dict[str, Any]) -> dict[str, Any]:

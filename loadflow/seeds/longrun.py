@@ -146,6 +146,11 @@ def holm(pvalues: Floats | Sequence[float]) -> Floats:
     pvalues : array_like, shape (k,)
         p values of k tests, in any dependence.
 
+    Returns
+    -------
+    ndarray (k,)
+        Adjusted p values, at most 1.
+
     Examples
     --------
     >>> holm([0.01, 0.04, 0.03]).tolist()

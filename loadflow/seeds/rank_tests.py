@@ -88,6 +88,16 @@ def siegel_tukey_ranks(n: int) -> Floats:
     1 to the smallest, 2 to the largest, 3 to the second largest, 4 to the second smallest, 5 to
     the third smallest, and so on; the middle value of an odd number has rank n.
 
+    Parameters
+    ----------
+    n : int
+        Number of values.
+
+    Returns
+    -------
+    ndarray (n,)
+        The ranks.
+
     Examples
     --------
     >>> siegel_tukey_ranks(8).astype(int).tolist()

@@ -28,6 +28,11 @@ def scaled_suspension(concept: Suspension, factor: float) -> Suspension:
     factor : float
         φ, > 0.
 
+    Returns
+    -------
+    Suspension
+        Of the same class.
+
     Raises
     ------
     InputError

@@ -50,7 +50,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
     Every roller, or one in `follow_every`, is followed through the whole series; balls and barrels
     slide where their contacts are curved, balls where they spin; bearings that swing have their
     mean speed, or that of the pitch, and their torque without load. Rings are rigid. With a
-    conductance each bearing finds its own temperature.
+    conductance each bearing that turns finds its own temperature.
 
     Raises
     ------

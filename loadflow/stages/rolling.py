@@ -144,12 +144,9 @@ def warm_bearing(
 ) -> tuple[FurtherBearing, float]:
     """A bearing with its clearance at work under all samples of `loads`; its temperature, K.
 
-    Bearings that swing, and those without a model of friction, have the temperature that the scene
-    says. `answer`: see `loadflow.stages.rolling_at_work.at_work`.
+    `answer`: see `loadflow.stages.rolling_at_work.at_work`.
     """
     part, options = scene.rolling.bearings[name], scene.friction
-    if not part.balances_heat:
-        options = options.without_balance()
     force, moment, speed, weight = (
         loads[what].transpose("sample", ...).values
         for what in ("force", "moment", "speed", "weight")

@@ -76,8 +76,9 @@ def at_work(
     """Return a bearing with its clearance at work, and its temperature, K.
 
     With a conductance, the temperature is that at which it carries off the mean friction of the
-    samples; where the clearance follows the temperature, friction follows the clearance. Else it is
-    that of the section. A bearing without a mounting keeps its clearance.
+    samples; where the clearance follows the temperature, friction follows the clearance. Else, and
+    of bearings that swing or have no model of friction, it is that of the section. A bearing
+    without a mounting keeps its clearance.
 
     Parameters
     ----------
@@ -95,11 +96,11 @@ def at_work(
     Raises
     ------
     loadflow.errors.SolverError
-        No such temperature, no clearance at it, or no friction model for the bearing.
+        No such temperature, or no clearance at it.
     """
     ambient = options.ambient_temperature
     conductance = options.conductance_at(part.bearing)
-    if conductance is None:
+    if conductance is None or not part.balances_heat:
         return as_stated(part, options), options.temperature_at(part.bearing)
     every = part.mounting is None and answer is not None
     count = speed.size if every else min(MOST, speed.size)

@@ -18,7 +18,7 @@ from loadflow.errors import LoadflowError
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.scene.tolerances import ALIGNMENT
-from loadflow.stages.effects.film import TILT
+from loadflow.stages.effects.film_tilt import TILT
 from loadflow.stages.labelling import label
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.stage import Rungs, Stage

@@ -50,11 +50,19 @@ from loadflow.studies.compare_result import (
 from loadflow.studies.compare_risks import rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
-from loadflow.studies.compare_words import bearings, conclusion, drawn, facts, kind_of, references
+from loadflow.studies.compare_words import (
+    bearings,
+    conclusion,
+    drawn,
+    facts,
+    kind_of,
+    references,
+    reservations,
+)
 from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
-from loadflow.studies.wear_bands import with_error
+from loadflow.studies.wear_bands import with_error, with_production
 from loadflow.verdict import Verdict, from_dataset
 
 _OF_CONES = "at rest and at one temperature, which the error by models does not count"
@@ -87,6 +95,7 @@ def compared(
     return Comparison(
         name=scene.name,
         conclusion=conclusion(order, failures),
+        reservations=reservations(order),
         candidates=tuple(order),
         facts=facts(scene, [run.tables for run in finished]),
         shaft=drawn(scene, {part["place"] for one in order for part in one.bearings}),
@@ -142,7 +151,8 @@ def _numbers(
     yield "load_factor", Number(
         margin.factor, "×", margin.low, margin.high, error=error, limit=1.0,
         holds=None if math.isnan(margin.factor) else margin.factor >= 1,
-        case=margin.case, time=margin.time, place=margin.place, note=_governed(margin),
+        case=margin.case, time=margin.time, place=margin.place,
+        note=f"governed by {_governed(margin)}" if margin.governs else _governed(margin),
     )  # fmt: skip
     if "journal" in run.tables:
         yield from _of_journal(run, verdicts)
@@ -190,14 +200,17 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     yield "film_pressure", against(pressure, verdicts, "largest film pressure", 1e-6)
     share = shares_of(run, table)
     flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
-    none = "" if flow.any() else "no oil leaves the film"
+    collar = "without that of the collar" if "thrust" in run.tables else ""
+    told = _together("" if flow.any() else "no oil leaves the film", collar)
     error = error_of(run, "journal.film", "side flow")
-    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", none), error=error)
+    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", told), error=error)
     power, note = supply_power(table)
-    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", note)
+    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", _together(note, collar))
     yield "pump", replace(pump, error=error)
     yield "mixed_time", mixed_time(run, table, share, groups)
-    yield "wear", with_error(run, wear(run.scene, _bores(run), table, groups))
+    bores = _bores(run)
+    worn = with_production(run, table, bores, wear(run.scene, bores, table, groups))
+    yield "wear", with_error(run, worn)
     yield from _lost(run, table, table["lost_power"], "")
 
 

@@ -192,7 +192,7 @@ def missing(key: str, number: Number) -> dict[str, str]:
     nothing = "it is 0, of which there is no share"
     if math.isnan(number.error):
         left = "" if number.value else nothing
-        found["models"] = left or about.no_error or "the ladder has not measured one of its models"
+        found["models"] = left or about.no_error or "a model of it was not measured"
     if math.isnan(number.tolerance_low):
         whole = "it is whole" if number.value == about.top else ""
         left = whole if number.value else nothing
@@ -236,8 +236,9 @@ class Comparison:
     ----------
     name : str
         Of the scene.
-    conclusion : str
-        One sentence, and one with reservations where there are any.
+    conclusion, reservations : str
+        One sentence; what speaks against candidates that hold their limits, empty where nothing
+        does.
     candidates : tuple of Judged
         By `Judged.rank`.
     facts : dict
@@ -252,6 +253,7 @@ class Comparison:
 
     name: str
     conclusion: str
+    reservations: str
     candidates: tuple[Judged, ...]
     facts: dict[str, str]
     shaft: list[dict[str, Any]]
@@ -263,6 +265,7 @@ class Comparison:
         return {
             "name": self.name,
             "conclusion": self.conclusion,
+            "reservations": self.reservations,
             "facts": self.facts,
             "quantities": named_quantities(),
             "candidates": [one.as_dict() for one in self.candidates],

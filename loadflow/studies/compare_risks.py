@@ -132,9 +132,7 @@ def rolling_risks(
             float(ratio[k, b]), "–", low, high, limit=THINNEST, holds=bool(ratio[k, b] >= THINNEST),
             case=case, time=_slowest(reduced_samples(folder / "reduction" / f"{case}.h5", place)),
             place=place,
-            note="κ of what turns; its error is that of the speed, and of a temperature that is "
-            f"assumed; oil as warm as {_oil(scene, place)}; ISO 281 ends at 0.1, full films begin "
-            "at 1",
+            note=f"oil as warm as {_oil(scene, place)}; full films begin at 1",
         )  # fmt: skip
     yield "standstill", _standing(scene, folder, table, share)
 
@@ -202,7 +200,10 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
     pressure, place, case, time = worst
     told = f"largest contact pressure meanwhile {1e-6 * pressure:.0f} MPa" if case else ""
     if not stands.any():
-        told = "no load case of this run stands: marks of standing are not judged"
+        told = (
+            "no load case of this run stands: marks of standing are not judged; starts and stops "
+            "are DLC 3.1 and 4.1 of loads.dlc"
+        )
     else:
         counts = "± with a tenth, and ten times, of the 0.01 1/min below which it stands"
         told = "; ".join(filter(None, (told, events(scene, table), counts)))

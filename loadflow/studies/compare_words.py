@@ -10,8 +10,9 @@ from typing import Any
 import xarray as xr
 
 from loadflow.data import evidence
-from loadflow.quantities import CELSIUS
+from loadflow.quantities import CELSIUS, percent, three_digits
 from loadflow.rolling import RollerBearing, RollingBearing
+from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_factor import oil_told
@@ -21,29 +22,35 @@ from loadflow.verdict import Verdict
 
 
 def conclusion(judged: Sequence[Judged], without_answer: Collection[str] = ()) -> str:
-    """How many hold, which loses least, what the other kind does; then what speaks against some.
-
-    Last, what was asked for and has no answer.
+    """How many hold, which loses least, what the other kind does; last, what has no answer.
 
     Parameters
     ----------
     judged : sequence of Judged
-        By their rank: the best is one without reservations wherever there is one. The second
-        sentence is missing where no candidate that holds has any.
+        By their rank: the best is one without reservations wherever there is one.
     without_answer : collection of str
         Names of candidates that could not be solved; they count among none.
+    """
+    text = _sentence(judged)
+    if without_answer:
+        text += f" Without an answer, and not counted: {', '.join(without_answer)}."
+    return text
+
+
+def reservations(judged: Sequence[Judged]) -> str:
+    """What speaks against candidates that hold their limits; empty where nothing does.
+
+    Parameters
+    ----------
+    judged : sequence of Judged
+        In the order in which they are named.
     """
     against: dict[str, list[str]] = {}
     for one in judged:
         for name, what in one.reservations.items() if one.holds else ():
             against.setdefault(name, []).append(f"{one.title} ({what})")
-    text = _sentence(judged)
-    if without_answer:
-        text += f" Without an answer, and not counted: {', '.join(without_answer)}."
-    if not against:
-        return text
     parts = (f"{name}: {'; '.join(those)}" for name, those in against.items())
-    return f"{text} Reservations: {'; and '.join(parts)}."
+    return f"Reservations: {'; and '.join(parts)}." if against else ""
 
 
 def _sentence(judged: Sequence[Judged]) -> str:
@@ -82,12 +89,12 @@ def _named(one: Judged) -> str:
 
 def _told(one: Judged, least: bool = False) -> str:
     energy, factor = one.numbers["energy"].value, one.numbers["load_factor"].value
-    lost = f"{energy:.3g} MWh a year" if math.isfinite(energy) else "no one knows what"
+    lost = f"{three_digits(energy)} MWh a year" if math.isfinite(energy) else "no one knows what"
     if least and math.isfinite(energy):
         lost = f"least, {lost}"
     if UNCARRIED in one.reservations:
         lost += " without that of a thrust bearing, which they need"
-    return f"{_named(one)} lose {lost}, with a capacity margin of {factor:.3g}"
+    return f"{_named(one)} lose {lost}, with a capacity margin of {three_digits(factor)}"
 
 
 def _listed(verdicts: Sequence[Verdict]) -> str:
@@ -120,16 +127,44 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         "Loads": source,
         "Suspension": concepts,
         **_beams(scene),
-        "Load cases": f"{table.sizes['case']}, {told} seeds at each wind speed",
+        "Load cases": f"{table.sizes['case']}: {_at_speeds(table)}; {told} seeds at each"
+        + (f", {loads.duration:g} s" if loads.source == "simulate" else ""),
         "Intervals": (
             "95 % by resampling the seeds of each wind speed"
             + ("; with so few seeds they are too narrow" if 1 < few < 6 else "")
             + ("; one seed has none" if few == 1 else "")
         ),
         "References behind the loads": references(["loads"]),
+        "Tolerances": _tolerances(scene.as_built),
         "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
         f"{_warm(scene.friction)}, {scene.friction.cleanliness}",
     }
+
+
+def _at_speeds(table: xr.Dataset) -> str:
+    """Design load cases with their wind speeds, in words."""
+    found: dict[str, set[float]] = {}
+    for dlc, speed in zip(table["dlc"].values.tolist(), table["wind_speed"].values.tolist()):
+        found.setdefault(f"DLC {dlc}" if dlc else "of no design load case", set()).add(speed)
+    told = {
+        dlc: ", ".join(f"{speed:g}" for speed in sorted(speeds) if math.isfinite(speed))
+        for dlc, speeds in found.items()
+    }
+    return "; ".join(f"{dlc} at {speeds} m/s" if speeds else dlc for dlc, speeds in told.items())
+
+
+def _tolerances(assumed: AsBuilt) -> str:
+    """How far what is built may be off where no bearing says it, in words."""
+    gap = assumed.clearance
+    parts = {
+        "oil viscosity": (assumed.viscosity, percent(assumed.viscosity)),
+        "oil temperature": (assumed.temperature, f"{assumed.temperature:g} K"),
+        "roughness": (assumed.roughness, percent(assumed.roughness)),
+        "alignment": (assumed.alignment, f"{1e6 * assumed.alignment:g} µrad"),
+        "clearance": (gap, "half of ISO 286 grades" if gap is None else f"{1e6 * gap:g} µm"),
+    }
+    told = [f"{name} ± {size}" for name, (given, size) in parts.items() if given != 0]
+    return ", ".join(told) or "none"
 
 
 def _warm(options: Friction) -> str:

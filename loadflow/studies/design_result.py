@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import tomli_w
 
-from loadflow.quantities import HOURS_PER_YEAR
+from loadflow.quantities import HOURS_PER_YEAR, three_digits
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_quantities import named_quantities
@@ -33,6 +33,11 @@ SHOWN = {
 """Factor and unit in which a number is shown."""
 
 _ALL = 100.0  # %, of the tilt that a bearing allows
+_AT_END = 0.02  # share of a range within which a key lies at an end of it
+
+
+def _short(key: str) -> str:
+    return key.replace("geometry.", "")
 
 
 def check_name(point: np.ndarray) -> str:
@@ -168,6 +173,18 @@ class Designs:
         }
 
     @property
+    def at_ends(self) -> tuple[str, ...]:
+        """Keys of the best design that lie at an end of their range: beyond it may be a better."""
+        if self.best is None:
+            return ()
+        ranges = (pair for pair in zip(self.space.axes, self.best) if not pair[0].values)
+        return tuple(
+            axis.key
+            for axis, x in ranges
+            if min(x - axis.low, axis.high - x) < _AT_END * (axis.high - axis.low)
+        )
+
+    @property
     def conclusion(self) -> str:
         """What was found, as a sentence or two."""
         asked = f"loads to spare by a factor of {self.options.margin:.3g}"
@@ -188,13 +205,15 @@ class Designs:
             if math.isfinite(most):
                 return f"{told}; the widest margin that was found is {most:.3g}."
             return f"{told}."
-        words = ", ".join(f"{key.replace('geometry.', '')} {v}" for key, v in self.settings.items())
+        words = ", ".join(f"{_short(key)} {v}" for key, v in self.settings.items())
         energy, factor = (found.numbers[key].value for key in ("energy", "load_factor"))
         text = (
             f"The best of {len(self.answers)} designs of {self.title} ({words}) loses "
-            f"{energy:.3g} MWh a year with loads to spare by a factor of {factor:.3g}, "
-            f"governed by: {found.governs}."
+            f"{three_digits(energy)} MWh a year with loads to spare by a factor of "
+            f"{three_digits(factor)}, governed by: {found.governs}."
         )
+        if self.at_ends:
+            text += f" At an end of its range: {', '.join(map(_short, self.at_ends))}."
         tilt = found.numbers.get("tilt")
         if tilt is not None and tilt.value > _ALL:
             text += (
@@ -212,7 +231,7 @@ class Designs:
         before = start.numbers["energy"].value
         state = "holds" if start.holds else "breaks"
         return (
-            f"{text} As given it loses {before:.3g} MWh and {state} "
+            f"{text} As given it loses {three_digits(before)} MWh and {state} "
             f"{'all' if start.holds else 'some'} limits."
         )
 
@@ -269,6 +288,7 @@ class Designs:
             "given": {name: plain(v) for name, v in self.given.numbers.items()},
             "best": None if self.best is None else self.index_of(self.best),
             "settings": self.settings,
+            "at_ends": list(self.at_ends),
             "front": {"levels": list(self.front.levels), "index": list(self.front.index)},
             "designs": designs,
             "maps": [
@@ -383,7 +403,7 @@ def scene_with_bearings(
 ) -> str:
     """The scene with other bearings, as TOML that begins with `words`."""
     data = scene.model_dump(mode="json", exclude_unset=True, exclude_none=True)
-    for part in ("candidates", "design", "journal", "rolling", "results"):
+    for part in ("candidates", "design", "journal", "thrust", "rolling", "results"):
         data.pop(part, None)
     data["name"] = name
     if friction:

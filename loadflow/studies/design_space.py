@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -115,6 +115,8 @@ class Space:
         Data of the section on the friction of rolling bearings.
     title, source : str
         Of the candidate.
+    collars : mapping
+        Data of its thrust collars by place, which stand beside its bearings and do not vary.
     """
 
     axes: tuple[Axis, ...]
@@ -122,6 +124,7 @@ class Space:
     friction: Mapping[str, Any]
     title: str = ""
     source: str = ""
+    collars: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def bounds(self) -> list[tuple[float, float]]:
@@ -142,7 +145,7 @@ class Space:
             for table, path in _targets(key, places, friction):
                 _set(table, path, value)
         _with_capacity(places, self.places)
-        return places, friction
+        return with_collars(places, self.collars), friction
 
     def at(self, point: Sequence[float]) -> tuple[Candidate, Friction]:
         """The candidate, and the friction section, at a point.
@@ -189,7 +192,8 @@ def space_of(scene: Scene, candidate: Candidate, design: Design) -> Space:
     friction = scene.friction.model_dump(mode="json", exclude_unset=True, exclude_none=True)
     keys = design.keys or default_keys(places)
     axes = tuple(_axis(key, variation, places, friction) for key, variation in keys.items())
-    space = Space(axes, places, friction, candidate.title, candidate.source)
+    about = candidate.title, candidate.source
+    space = Space(axes, places, friction, *about, written_collars(candidate))
     for axis in axes:
         _check_key(space, axis)
     return space
@@ -217,6 +221,24 @@ def written_places(candidate: Candidate) -> dict[str, Any]:
         if "like" in data:
             found[place] = copy.deepcopy(found[data["like"]])
     return found
+
+
+def written_collars(candidate: Candidate) -> dict[str, Any]:
+    """Data of the thrust collars of a candidate by place, each in full."""
+    found = {} if candidate.thrust is None else candidate.thrust.collars
+    return {
+        place: {"kind": one.kind}
+        | one.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+        for place, one in found.items()
+    }
+
+
+def with_collars(places: Mapping[str, Any], collars: Mapping[str, Any]) -> dict[str, Any]:
+    """Bearings by place, with the collars that stand beside some of them."""
+    return {
+        place: [data, copy.deepcopy(collars[place])] if place in collars else data
+        for place, data in places.items()
+    }
 
 
 def default_keys(places: Mapping[str, Any]) -> dict[str, Variation]:

@@ -28,12 +28,15 @@ class PadFilms:
         m; Pa, absolute; W.
     touching : array of bool (n,)
         Whether the surfaces touch.
+    temperature : array (n,)
+        Of the warmer film, K; NaN without heat.
     """
 
     minimum_film: Array
     maximum_pressure: Array
     friction_power: Array
     touching: NDArray[np.bool_]
+    temperature: Array
 
     @property
     def carried(self) -> NDArray[np.bool_]:
@@ -99,14 +102,18 @@ def pad_films(
     else:
         found = series.equilibrium(force[:, 2], speed, turned)
     return PadFilms(
-        found.minimum_film, found.maximum_pressure, found.friction_power, found.touching
+        found.minimum_film,
+        found.maximum_pressure,
+        found.friction_power,
+        found.touching,
+        found.temperature,
     )
 
 
 def _on_grid(
     bearing: AnyAxial, force: Array, moment: Array, speed: Array, tilt: Array | None
 ) -> PadFilms:
-    values, touching = np.full((3, speed.size), np.nan), np.zeros(speed.size, bool)
+    values, touching = np.full((4, speed.size), np.nan), np.zeros(speed.size, bool)
     for k in range(speed.size):
         turned = None if tilt is None else tilt[k]
         try:
@@ -116,6 +123,7 @@ def _on_grid(
             continue
         touching[k] = answer.minimum_film < bearing.contact_film
         if not touching[k]:
-            values[:, k] = answer.minimum_film, answer.maximum_pressure, answer.friction_power
-    film, pressure, power = values
-    return PadFilms(film, pressure, power, touching)
+            values[:3, k] = answer.minimum_film, answer.maximum_pressure, answer.friction_power
+            values[3, k] = getattr(answer, "temperature", np.nan)  # cones have no heat
+    film, pressure, power, temperature = values
+    return PadFilms(film, pressure, power, touching, temperature)

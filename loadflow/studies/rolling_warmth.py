@@ -165,6 +165,6 @@ def _needed(
     told = ", ".join(f"{float(each):.3g}" for each in lost.values)
     where = ", ".join(map(str, lost["bearing"].values))
     return (
-        f": the losses give it with a cooling of {told} W/K ({where}) to {air - CELSIUS:.0f} °C; "
-        "friction.cooling or friction.conductance balances them"
+        f", and not balanced: the losses need a cooling of {told} W/K ({where}) to "
+        f"{air - CELSIUS:.0f} °C for it"
     )

@@ -378,8 +378,8 @@ def _margins_of_pads(
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
     under = against_bore(grown(some.isel(sample=[thin, hard]), HEAVIER))
     heavier = pad_films(bearing, under, span=span)
-    limits = bearing.limits
-    allowed = limits.pressure_at(limits.material[0][0])
+    kelvin = float(answer.temperature[hard])
+    allowed = bearing.limits.pressure_at(kelvin if math.isfinite(kelvin) else 0.0)
     return load_margins(
         (film[thin] / bearing.least_film, allowed / pressure[hard]),
         (heavier.minimum_film[0] / film[thin], heavier.maximum_pressure[1] / pressure[hard]),

@@ -1,23 +1,27 @@
-"""What the hardest start rubs off a bore with other data: for band and error of wear."""
+"""What rubs off a bore: the hardest start with other data, for band and error; production."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
 from loadflow.errors import SolverError
 from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.wear import Cycle
+from loadflow.quantities import HOURS_PER_YEAR, percent
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
+from loadflow.stages.turning import runs_throughout, turning
 from loadflow.stages.wear import touching_cycle
-from loadflow.studies.compare_numbers import Finished, error_of
+from loadflow.studies.compare_numbers import Finished, error_of, shares_of
 from loadflow.studies.compare_result import Number
 
 BATCHES = 5.0
@@ -90,6 +94,50 @@ def rubbing_of(scene: Scene, folder: Path, wear: Number) -> Rubbing | None:
     if options.heat is not None and "temperature" in film:
         warmth = float(film["temperature"].median()) - options.heat.inlet_temperature
     return Rubbing(wear.place, cycle, warmth)
+
+
+def with_production(
+    run: Finished, table: xr.Dataset, bores: Mapping[str, xr.Dataset], wear: Number
+) -> Number:
+    """Wear that says what asperities rub while the shaft runs, beside starts, stops and faults.
+
+    By the law their friction energy counts, wherever in the bore it is left, so that it is told as
+    a share of what starts, stops and faults rub, and does not add to the depth.
+
+    Parameters
+    ----------
+    run : Finished
+        The candidate; its films lie in its folder.
+    table : xarray.Dataset
+        Films of the run over ``case``.
+    bores : mapping
+        Worn bores by bearing.
+    wear : Number
+        Of ``journal.wear``.
+    """
+    running = table["case"].values[runs_throughout(table)].tolist()
+    if wear.place not in bores or not running:
+        return wear
+    share = dict(zip(table["case"].values.tolist(), shares_of(run, table).tolist()))
+    life = run.scene.lifetime.years * HOURS_PER_YEAR * 3600.0
+    rubbed = 0.0
+    for case in running:
+        names = ("contact_power", "speed", "weight")
+        film = read_variables(run.folder / "journal" / f"{case}.h5", names, wear.place)
+        turns = turning(film) & np.isfinite(film["contact_power"].values)
+        weight = film["weight"].values
+        power = float((film["contact_power"].values * weight)[turns].sum() / weight.sum())
+        rubbed += power * share[case] * life
+    data = bores[wear.place]
+    starts = 0.0
+    if data.attrs["cycles"]:
+        starts = float((data["contact_energy"] * data["count"]).mean("renewal").sum())
+    told = "power production rubs nothing"
+    if rubbed > 0 and starts > 0:
+        told = f"power production rubs {percent(rubbed / starts)} of that beside it, not in it"
+    elif rubbed > 0:
+        told = f"power production rubs with {1e-6 * rubbed:.3g} MJ in the life, not in it"
+    return replace(wear, note="; ".join(filter(None, (wear.note, told))))
 
 
 def with_error(run: Finished, wear: Number) -> Number:

@@ -27,6 +27,16 @@ _REACH = 12.0  # film parameter above which asperities carry less than rounding
 def combined_roughness(first: Value, second: Value) -> Value:
     """Combined roughness σ = √(R_q1² + R_q2²), m.
 
+    Parameters
+    ----------
+    first, second : float or ndarray
+        R_q of both surfaces, m.
+
+    Returns
+    -------
+    float or ndarray
+        σ, m.
+
     Examples
     --------
     >>> round(float(combined_roughness(0.3e-6, 0.4e-6)) * 1e6, 3)
@@ -37,6 +47,18 @@ def combined_roughness(first: Value, second: Value) -> Value:
 
 def film_parameter(film: Value, roughness: Value) -> Value:
     """Λ = h/σ, (8.2) of von Hollen 2013; at least 5 keeps ground surfaces apart.
+
+    Parameters
+    ----------
+    film : float or ndarray
+        Film thickness h, m.
+    roughness : float or ndarray
+        Combined roughness σ, m.
+
+    Returns
+    -------
+    float or ndarray
+        Λ.
 
     Examples
     --------
@@ -60,6 +82,11 @@ def asperity_share(parameter: Value, rate: float = 1.8, power: float = SHARE_POW
     rate, power : float
         B and C.
 
+    Returns
+    -------
+    float or ndarray
+        0 … 1.
+
     Examples
     --------
     >>> round(float(asperity_share(1.0)), 4)
@@ -80,6 +107,11 @@ def greenwood_tripp(order: float, separation: ArrayLike) -> NDArray[np.float64]:
         n > -1; 5/2 for the pressure, 2 for the area of contact.
     separation : array_like
         u = h/σ of the mean planes.
+
+    Returns
+    -------
+    ndarray
+        F_n(u).
 
     Examples
     --------
@@ -116,6 +148,11 @@ def asperity_pressure(
         Radius β of an asperity, m.
     density : float
         Asperities of one surface in an area, η, 1/m².
+
+    Returns
+    -------
+    ndarray
+        Pa.
 
     Examples
     --------

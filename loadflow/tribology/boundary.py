@@ -81,6 +81,11 @@ def friction_pair(name: str) -> FrictionPair:
     name : str
         One of `friction_pair_names`.
 
+    Returns
+    -------
+    FrictionPair
+        The pair.
+
     Raises
     ------
     InputError
@@ -99,6 +104,11 @@ def friction_pair(name: str) -> FrictionPair:
 
 def friction_pair_names() -> list[str]:
     """Names of the pairs of the library.
+
+    Returns
+    -------
+    list of str
+        The names.
 
     Examples
     --------
@@ -124,6 +134,11 @@ def boundary_stress(
     reference : float
         Speed v_ref over which the friction turns round, m/s.
 
+    Returns
+    -------
+    float or ndarray
+        Pa.
+
     Examples
     --------
     >>> round(float(boundary_stress(2e6, -1.0, 0.1)))
@@ -138,6 +153,16 @@ def contact_power(
     """Friction power of touching asperities in an area, μ p Δv tanh(Δv/v_ref) ≥ 0, W/m².
 
     Parameters as of `boundary_stress`.
+
+    Parameters
+    ----------
+    pressure, sliding, coefficient, reference
+        As `boundary_stress`.
+
+    Returns
+    -------
+    float or ndarray
+        W/m².
 
     Examples
     --------

@@ -79,6 +79,11 @@ def film_ratio(law: str, material: Value, speed: Value, load: Value) -> Value:
     material, speed, load : float or ndarray
         G, U, W.
 
+    Returns
+    -------
+    float or ndarray
+        h/R.
+
     Raises
     ------
     InputError
@@ -106,6 +111,11 @@ def moes_line(material: Value, speed: Value, load: Value) -> Value:
     ----------
     material, speed, load : float or ndarray
         G, U, W.
+
+    Returns
+    -------
+    float or ndarray
+        h/R.
 
     Examples
     --------
@@ -166,6 +176,11 @@ def nijenbanning_point(material: Value, speed: Value, load: Value, radius_ratio:
     radius_ratio : float or ndarray
         R_x/R_y of the reduced radii, at most 1.
 
+    Returns
+    -------
+    float or ndarray
+        h/R_x.
+
     Examples
     --------
     >>> film = nijenbanning_point(5227.0, 2.154e-10, 7.63e-4, 0.03) * 5.1093e-3
@@ -192,6 +207,18 @@ def hamrock_dowson_central(material: Value, speed: Value, load: Value, elliptici
 
     For k = 1 the row Hamrock/Dowson of Table 5.2: 2.69 (1 - 0.61 exp(-0.73)) = 1.90.
 
+    Parameters
+    ----------
+    material, speed, load : float or ndarray
+        G, U, W of points, with R = R_x along the rolling direction.
+    ellipticity : float or ndarray
+        k = a/b, of the semi-axes across and along rolling.
+
+    Returns
+    -------
+    float or ndarray
+        h/R_x.
+
     Examples
     --------
     >>> film = hamrock_dowson_central(5227.0, 2.154e-10, 7.63e-4, 9.285) * 5.1093e-3
@@ -204,6 +231,18 @@ def hamrock_dowson_central(material: Value, speed: Value, load: Value, elliptici
 
 def hamrock_dowson_minimum(material: Value, speed: Value, load: Value, ellipticity: Value) -> Value:
     """Smallest film over radius R_x of an elliptical contact.
+
+    Parameters
+    ----------
+    material, speed, load : float or ndarray
+        G, U, W of points, with R = R_x along the rolling direction.
+    ellipticity : float or ndarray
+        k = a/b, of the semi-axes across and along rolling.
+
+    Returns
+    -------
+    float or ndarray
+        h/R_x.
 
     Examples
     --------
@@ -229,6 +268,11 @@ def thermal_loading(viscosity: Value, steepness: Value, speed: Value, conductivi
     conductivity : float or ndarray
         W/(m K).
 
+    Returns
+    -------
+    float or ndarray
+        L_th.
+
     Examples
     --------
     >>> round(thermal_loading(0.0106, 0.0278, 1.53, 0.139), 5)
@@ -239,6 +283,16 @@ def thermal_loading(viscosity: Value, steepness: Value, speed: Value, conductivi
 
 def thermal_factor(loading: Value) -> Value:
     """Share of the film that inlet shear heating leaves, C_th = 1/(1 + 0.39 L^0.548), (5.92).
+
+    Parameters
+    ----------
+    loading : float or ndarray
+        `thermal_loading`.
+
+    Returns
+    -------
+    float or ndarray
+        0 … 1.
 
     Examples
     --------
@@ -259,6 +313,11 @@ def zhu_cheng_factor(loading: Value, pressure_ratio: Value, slide_ratio: Value =
         Largest Hertzian pressure over reduced modulus E₀.
     slide_ratio : float or ndarray
         Sliding over mean surface speed.
+
+    Returns
+    -------
+    float or ndarray
+        0 … 1.
 
     Examples
     --------
@@ -282,6 +341,11 @@ def starvation_factor(inlet: Value, half_width: Value, radius: Value, film: Valu
         Reduced radius along rolling, m.
     film : float or ndarray
         Flooded central film, m.
+
+    Returns
+    -------
+    float or ndarray
+        0 … 1.
 
     Examples
     --------

@@ -56,6 +56,11 @@ def adiabatic_rise(
     steepness : float
         β = -d(ln η)/dT, 1/K; 0 for constant viscosity.
 
+    Returns
+    -------
+    ndarray
+        K.
+
     Raises
     ------
     InputError
@@ -95,6 +100,16 @@ def nahme_number(viscosity: float, speed: float, conductivity: float, steepness:
         k of the oil, W/(m K).
     steepness : float
         β = -d(ln η)/dT, 1/K.
+
+    Returns
+    -------
+    float
+        Na.
+
+    Raises
+    ------
+    InputError
+        The conductivity is not positive.
 
     Examples
     --------

@@ -31,7 +31,7 @@ def reference_table(name: str) -> tuple[Array, Array, Array]:
     >>> values.shape == (ratios.size, widths.size)
     True
     """
-    text = (files("loadflow") / "data" / "reference" / name).read_text().splitlines()
+    text = (files("loadflow") / "data" / "reference" / name).read_text("utf-8").splitlines()
     widths = np.array([float(head.split("=")[1]) for head in text[0].split(",")[1:]])
     values = np.array([line.split(",") for line in text[1:]], dtype=float)
     return widths, values[:, 0], values[:, 1:]

@@ -100,6 +100,23 @@ def effective_modulus(
 ) -> Array:
     """Contact modulus E* with 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂, in Pa.
 
+    Parameters
+    ----------
+    modulus, poisson : array_like
+        E₁, Pa, and ν₁ of one body; default steel.
+    second_modulus, second_poisson : array_like, optional
+        Of the other; default those of the first.
+
+    Returns
+    -------
+    ndarray
+        E*, Pa.
+
+    Raises
+    ------
+    InputError
+        A modulus that is not positive, or a ratio of Poisson outside 0 … 0.5.
+
     Examples
     --------
     >>> round(float(effective_modulus()) / 1e9, 2)

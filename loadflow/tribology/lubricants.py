@@ -278,6 +278,11 @@ def lubricant(name: str) -> Oil:
     name : str
         One of `lubricant_names`.
 
+    Returns
+    -------
+    Oil
+        The oil; of a grease its base oil.
+
     Raises
     ------
     InputError
@@ -300,6 +305,11 @@ def lubricant(name: str) -> Oil:
 
 def lubricant_names() -> list[str]:
     """Names of the oils and greases of the library.
+
+    Returns
+    -------
+    list of str
+        The names.
 
     Examples
     --------

@@ -19,6 +19,20 @@ def limiting_stress(
 ) -> Value:
     """Limiting shear stress: τ_c, above the critical pressure τ_c + (p̄ - p_c) slope, (5.53), Pa.
 
+    Parameters
+    ----------
+    pressure : float or ndarray
+        Mean pressure p̄ of the contact, Pa.
+    critical_stress, critical_pressure : float
+        τ_c and p_c, Pa.
+    slope : float
+        dτ/dp̄ above p_c.
+
+    Returns
+    -------
+    float or ndarray
+        Pa.
+
     Examples
     --------
     >>> round(float(limiting_stress(1000e6, 4e6, 502e6, 0.07)) / 1e6, 2)

@@ -24,6 +24,11 @@ _WINDIO = (".yaml", ".yml")
 def turbine_names() -> list[str]:
     """Names of the turbines that come with the package.
 
+    Returns
+    -------
+    list of str
+        The names.
+
     Examples
     --------
     >>> "nrel-5mw" in turbine_names()
@@ -120,6 +125,16 @@ def _scaled(base: str, power: float) -> Turbine:
 
 def turbine_digest(name: str) -> str:
     """SHA-256 of the file of a turbine and of that which it completes; empty for a shipped one.
+
+    Parameters
+    ----------
+    name : str
+        Of a shipped turbine, or of a file.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits, or nothing.
 
     Examples
     --------

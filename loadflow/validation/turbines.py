@@ -257,7 +257,11 @@ def published_states(name: str) -> np.ndarray:
     name : str
         Of one of `TURBINES`.
     """
-    text = resources.files("loadflow.data").joinpath("reference", "steady_states.csv").read_text()
+    text = (
+        resources.files("loadflow.data")
+        .joinpath("reference", "steady_states.csv")
+        .read_text("utf-8")
+    )
     columns = ("wind", "speed", "pitch", "power", "thrust")
     rows = [row for row in csv.DictReader(text.splitlines()) if row["turbine"] == name]
     return np.array([[float(row[column]) for column in columns] for row in rows])

@@ -47,6 +47,11 @@ def read_bladed_box(
         Of the mean profile that the file leaves out, as Bladed's own files do. By default the file
         holds the profile, as TurbSim's do, and its exponent is fitted.
 
+    Returns
+    -------
+    Box
+        The fluctuation and its mean profile.
+
     Raises
     ------
     InputError

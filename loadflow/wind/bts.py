@@ -23,6 +23,15 @@ _NOT_PERIODIC, _PERIODIC = 7, 8
 def write_bts(path: str | Path, box: Box, description: str = "loadflow") -> None:
     """Write a box with its mean profile; the 16-bit numbers resolve 1/65534 of each range.
 
+    Parameters
+    ----------
+    path : path-like
+        File to write.
+    box : Box
+        The wind.
+    description : str
+        Stands in the file.
+
     Raises
     ------
     InputError
@@ -74,6 +83,16 @@ def write_bts(path: str | Path, box: Box, description: str = "loadflow") -> None
 
 def read_bts(path: str | Path) -> Box:
     """Read a box; the exponent of the mean profile is fitted, the rest of the wind fluctuates.
+
+    Parameters
+    ----------
+    path : path-like
+        The file.
+
+    Returns
+    -------
+    Box
+        The fluctuation and its mean profile.
 
     Raises
     ------

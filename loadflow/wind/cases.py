@@ -218,7 +218,22 @@ def parked(dlc: str) -> bool:
 
 
 def load_case(dlc: str) -> LoadCase:
-    """Row of the table; raises `InputError` if there is none of that number.
+    """Row of the table of design load cases.
+
+    Parameters
+    ----------
+    dlc : str
+        Number of the load case, such as ``"1.1"``.
+
+    Returns
+    -------
+    LoadCase
+        The row.
+
+    Raises
+    ------
+    InputError
+        There is none of that number.
 
     Examples
     --------

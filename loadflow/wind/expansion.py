@@ -198,6 +198,20 @@ def condition(
     time of the event, azimuth, yaw error) of a deterministic one, from 1. What it stands for does
     not depend on the number of seeds.
 
+    Parameters
+    ----------
+    dlc, machine, options, yaw_errors, azimuths, duration, steady
+        As `conditions`.
+    wind_speed : float
+        Mean at the hub, m/s.
+    index : int
+        Which wind of that speed.
+
+    Returns
+    -------
+    Condition
+        The wind.
+
     Raises
     ------
     InputError

@@ -79,6 +79,21 @@ class Field:
 def polar_angles(count: int) -> NDArray[np.float64]:
     """`count` equidistant angles from 0 in [0, 2π), rad.
 
+    Parameters
+    ----------
+    count : int
+        How many, at least 3.
+
+    Returns
+    -------
+    ndarray (count,)
+        rad.
+
+    Raises
+    ------
+    InputError
+        Fewer than 3.
+
     Examples
     --------
     >>> from loadflow.wind import polar_angles

@@ -78,6 +78,11 @@ def gust_field(
     Field
         The difference to the mean profile, exact at the grid points; `v` only if the wind turns.
 
+    Raises
+    ------
+    InputError
+        A grid that is not polar, or that reaches the ground.
+
     Examples
     --------
     >>> import numpy as np

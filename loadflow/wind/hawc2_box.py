@@ -52,6 +52,11 @@ def read_hawc2_box(
         Where the first line of a plane lies, looking downwind. "left" is how InflowWind of OpenFAST
         takes the same files; it is the mirror image of the other.
 
+    Returns
+    -------
+    Box
+        The fluctuation and its mean profile.
+
     Raises
     ------
     InputError

@@ -26,6 +26,18 @@ gust for gust, without what is faster than it can show."""
 def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
     """Polar grid over the rotor: equidistant radii from the hub to the tip.
 
+    Parameters
+    ----------
+    machine : Machine
+        The turbine.
+    options : WindOptions
+        Number of radii and angles.
+
+    Returns
+    -------
+    PolarGrid
+        The grid.
+
     Examples
     --------
     >>> from loadflow.wind import Machine, WindOptions, rotor_grid
@@ -42,6 +54,18 @@ def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
 
 def coherence_factors(machine: Machine, options: WindOptions) -> CoherenceFactors:
     """Factors for `inflow`, good for all conditions of a study.
+
+    Parameters
+    ----------
+    machine : Machine
+        The turbine.
+    options : WindOptions
+        Class, spectrum and grid.
+
+    Returns
+    -------
+    CoherenceFactors
+        To be handed to `inflow`.
 
     Examples
     --------
@@ -81,6 +105,11 @@ def inflow(
         From `coherence_factors`, to save making them anew.
     components, method
         As for `kaimal`; the Mann model has all three.
+
+    Returns
+    -------
+    Field
+        Wind over time on the polar grid, m/s.
 
     Notes
     -----
@@ -155,6 +184,15 @@ def transient(
     condition: Condition, machine: Machine, time: NDArray[np.float64]
 ) -> dict[str, NDArray[np.float64]]:
     """Course of a gust over `time` (s from the start of the series), for `gusts.gust_field`.
+
+    Parameters
+    ----------
+    condition : Condition
+        With the gust.
+    machine : Machine
+        The turbine.
+    time : ndarray (n,)
+        s.
 
     Returns
     -------

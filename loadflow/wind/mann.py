@@ -69,6 +69,11 @@ def mann_box(
         "none" leaves the variance to the model, the box and its cells; "hub" scales all components
         alike so that u has σ1 at the grid point nearest to the hub.
 
+    Returns
+    -------
+    Box
+        The fluctuation.
+
     Raises
     ------
     InputError

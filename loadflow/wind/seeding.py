@@ -30,6 +30,11 @@ def case_seed(dlc: str, wind_speed: float, index: int, base: int = 0) -> np.rand
     base : int
         Seed of the whole scene.
 
+    Returns
+    -------
+    numpy.random.SeedSequence
+        The seed.
+
     Raises
     ------
     InputError

@@ -147,10 +147,14 @@ def kaimal_box(
     method: Method = "fast",
     factors: CoherenceFactors | None = None,
 ) -> Box:
-    """Turbulence on a rectangular grid; arguments as in `kaimal`.
+    """Turbulence on a rectangular grid.
 
     Parameters
     ----------
+    wind_speed, sigma, duration, dt, seed, length_scale, shear_exponent
+        As `kaimal`.
+    components, scaling, lateral, method, factors
+        As `kaimal`.
     y, z : array_like
         Lateral positions (0 at the tower axis, rising to the left when looking downwind) and
         heights above ground of the grid lines, rising, m.

@@ -25,6 +25,7 @@ from loadflow.planning.accuracy import errors_beside, expected_errors
 from loadflow.planning.effects import EffectVerdict, Estimates
 from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
+from loadflow.quantities import three_digits
 from loadflow.report.compare_page import _row, write_comparison
 from loadflow.report.sketch import sketch
 from loadflow.running.candidates import candidate_scene, candidates_for
@@ -58,7 +59,7 @@ from loadflow.studies.compare_result import (
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
-from loadflow.studies.compare_words import conclusion, drawn
+from loadflow.studies.compare_words import conclusion, drawn, reservations
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
 
@@ -175,7 +176,7 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     journal = by_name(found)["journal-cylindrical"].numbers
     assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
     page = found.page.read_text(encoding="utf-8")
-    asked = re.findall(r"– by (?:seeds|models|tolerances) <a href=\"#(why-\d+)\" title=", page)
+    asked = re.findall(r"<i>(?:seeds|models|tol\.)</i> – <a href=\"#(why-\d+)\" title=", page)
     told = re.findall(r"<li id=\"(why-\d+)\">[^<]+</li>", page)
     assert {*asked} == {*told}
     assert len(told) == len({*told}) < len(asked)  # each reason once
@@ -531,7 +532,11 @@ def test_bands_by_tolerances_stand_beside_the_numbers(found):
             assert number.tolerance_low <= number.value <= number.tolerance_high, (one.name, key)
             assert number.tolerance_low < number.tolerance_high
             assert number.tolerance
-    assert "by tolerances, most by" in found.page.read_text(encoding="utf-8")
+    number = found.comparison.candidates[0].numbers["energy"]
+    low, high = map(three_digits, (number.tolerance_low, number.tolerance_high))
+    told = f"<small><i>tol.</i> {low}\u2009…\u2009{high}, {number.tolerance}</small>"
+    assert told in found.page.read_text(encoding="utf-8")
+    assert "oil viscosity ± 10 %, oil temperature ± 5 K" in found.comparison.facts["Tolerances"]
 
 
 def test_tilt_films_and_rows_have_intervals_by_the_seeds(found):
@@ -615,6 +620,7 @@ class Links(HTMLParser):
 def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
     page = found.page.read_text(encoding="utf-8")
     assert found.comparison.conclusion in page
+    assert found.comparison.reservations in page
     assert "nan" not in page.lower().replace("tenance", "")
     parser = Links()
     parser.feed(page)
@@ -651,13 +657,16 @@ def test_what_breaks_a_rule_or_leaves_the_thrust_ranks_behind_and_is_no_headline
     assert all(one.holds for one in order)
     assert conclusion(order) == (
         "4 of 4 candidates hold their limits on these loads, of which 2 with reservations; of the "
-        "others, rolling bearings (pair) lose least, 20 MWh a year, with a capacity margin of 1.6; "
-        "the best journal bearings (collar) lose 109 MWh a year, with a capacity margin of 1.6. "
+        "others, rolling bearings (pair) lose least, 20.0 MWh a year, with a capacity margin of "
+        "1.60; the best journal bearings (collar) lose 109 MWh a year, with a capacity margin of "
+        "1.60."
+    )
+    assert reservations(order) == (
         "Reservations: smallest load over the dynamic capacity (skidding): barrels (0.68 %, limit "
         "2 %); and thrust that no bearing carries: bores (964 kN)."
     )
-    assert "Reservations" not in conclusion([rolls, collar])
-    assert "lose 47 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
+    assert reservations([rolls, collar]) == ""
+    assert "lose 47.0 MWh a year without that of a thrust bearing" in conclusion([rolls, bare])
     told = conclusion([rolls, bare], {"pads": "no equilibrium"})
     assert "Without an answer, and not counted: pads." in told
     gone = replace(rolls, unanswered={"rolling of one": "no equilibrium"})
@@ -685,14 +694,43 @@ def test_a_candidate_with_a_reservation_says_so_in_table_and_depth(found):
     assert f"{bare.title}: holds, with reservations: " in page
 
 
+def listed(key, number):
+    return plain(vars(number)) | {"missing": missing(key, number)}
+
+
 @pytest.mark.parametrize(
     ("key", "said"), [("eccentricity_ratio", "limit ≤ 0.95"), ("minimum_film", "limit ≥ 0.95")]
 )
 def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
-    numbers = {key: plain(vars(Number(0.9, "–", limit=0.95, holds=True)))}
+    numbers = {key: listed(key, Number(0.9, "–", limit=0.95, holds=True))}
     data = {"quantities": named_quantities()}
-    _, _, [cell] = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
-    assert cell.limit == said
+    row = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
+    assert row.limit == said
+    [cell] = row.cells
+    assert (cell.value, cell.state, cell.limit) == ("0.900", "good", "")
+
+
+def test_limits_that_differ_stand_in_each_cell():
+    key, data = "minimum_film", {"quantities": named_quantities()}
+    both = [
+        {"name": name, "numbers": {key: listed(key, Number(20.0, "µm", limit=limit, holds=True))}}
+        for name, limit in (("one", 10.0), ("two", 13.8))
+    ]
+    row = _row(key, data | {"candidates": both})
+    assert row.limit == ""
+    assert [cell.limit for cell in row.cells] == ["limit ≥ 10", "limit ≥ 13.8"]
+
+
+def test_the_limit_of_some_stands_beside_them_alone():
+    """A number without a limit must not seem to break that of the others."""
+    key, data = "eccentricity_ratio", {"quantities": named_quantities()}
+    held, free = Number(0.9, "–", limit=0.95, holds=True), Number(1.1, "–", low=1.0, high=1.1)
+    both = [
+        {"name": name, "numbers": {key: listed(key, number)}}
+        for name, number in (("bore", held), ("pads", free))
+    ]
+    row = _row(key, data | {"candidates": both})
+    assert (row.limit, [cell.limit for cell in row.cells]) == ("", ["limit ≤ 0.95", ""])
 
 
 def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_why(tmp_path):
@@ -704,7 +742,7 @@ def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_wh
     one = candidate("one", pump=idle, wear=Number(math.nan, "µm", note=lawless), minimum_film=shut)
     two = candidate("two", pump=idle, wear=Number(math.nan, "µm", note="n/a: no film bearing"),
                     minimum_film=shut)  # fmt: skip
-    both = Comparison("c", "", (one, two), {}, [], {}, [])
+    both = Comparison("c", "", "", (one, two), {}, [], {}, [])
     page = write_comparison(tmp_path / "c.html", both.as_dict()).read_text(encoding="utf-8")
     told = page.split("Left out, as no candidate has a number above 0: ")[1].split("</p>")[0]
     pump, worn, film = (QUANTITIES[key].name for key in ("pump", "wear", "minimum_film"))

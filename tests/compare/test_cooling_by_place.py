@@ -14,6 +14,7 @@ from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
+from loadflow.stages.friction import losses
 from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
@@ -93,6 +94,22 @@ def test_an_assumed_temperature_is_in_the_error_of_viscosity_ratio_and_modified_
     assert (kappa[2], life[2]) == (kappa[0], life[0])  # somebody knows it
 
 
+def test_friction_that_leaves_at_no_temperature_has_no_size():
+    """Not that of the hottest oil tried: κ and modified life are not known then."""
+
+    def sizes(conductance):
+        scene = _of_two({"N": {"conductance": conductance}, "N2": {"conductance": 1e4}})
+        return ROLLING_HEAT.indicator(situation(scene, list_cases(scene)))
+
+    assert np.isfinite([*sizes(1e4).values()]).all()
+    hot = sizes(1e-3)
+    assert np.isnan([*hot.values()]).all()
+    without = _of_two({})  # nobody knows its cooling
+    errors = errors_beside(without, Estimates({ROLLING_HEAT.name: hot}))
+    assert errors["rolling.friction"]["viscosity ratio"] is None
+    assert errors["rolling.life"]["modified life"] is None
+
+
 def test_a_measured_temperature_stays_without_heat_balances_and_has_no_error():
     cooling = {"N": {"conductance": 12.0}, "N2": {"temperature": 330.0}}
     scene = _of_two(cooling)
@@ -169,6 +186,11 @@ def test_a_bearing_that_swings_has_the_temperature_that_is_stated_for_it(tmp_pat
         }
     )
     assert [warm_bearing(scene, name, few)[1] for name in ("N", "N2")] == [330.0, 310.0]
+    time = np.arange(0.0, 1.0, 0.1)
+    held = few[["force", "moment"]].isel(sample=0).expand_dims(bearing=["N", "N2"], time=time)
+    turning = xr.Dataset({"speed": ("time", np.ones(time.size))}, {"time": time})
+    found = losses(scene, list_cases(scene)[0], {"loads": turning, "shaft": held})
+    assert found["temperature"].values.tolist() == [330.0, 310.0]
     unused = unused_keys(scene)
     assert "friction.cooling.N2" in unused
     assert "friction.cooling.N" not in unused

@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 import tomllib
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -226,6 +227,32 @@ def test_a_cooling_varies_from_what_the_scene_states_and_is_written_with_the_des
     assert [written.conductance_at(place) for place in ("N", "N2")] == [20.0, 80.0]
 
 
+def test_a_design_has_the_collar_of_its_candidate_and_none_of_the_scene():
+    """A collar does not vary, and stands in the runs that check and in the scene of the best."""
+    names = {"journal-cylindrical": {}, "journal-thrust": {}}
+    data = {"name": "quick", "bearings": ["journal-thrust"], "shaft": {"two_point": {}}}
+    scene = make_scene(data | {"candidates": names})
+    assert scene.thrust.bearings
+    for name, candidate in scene.candidates.items():
+        space = space_of(scene, candidate, Design(keys={"N2.geometry.width": [0.8, 1.4]}))
+        one, _ = space.at([1.0])
+        text = scene_with_bearings(scene, "best", *space.data([1.0]), "words")
+        best = make_scene(tomllib.loads(text))
+        assert one.journal.at("N2").geometry.width == best.journal.at("N2").geometry.width == 1.0
+        if name == "journal-thrust":
+            assert one.thrust.bearings == best.thrust.bearings == candidate.thrust.bearings
+        else:
+            assert one.thrust is None
+            assert best.thrust.bearings == {}
+
+
+def test_a_search_over_cones_is_refused_by_name():
+    scene = make_scene({"name": "cones", "shaft": {"moment": {}},
+                        "candidates": {"conical-pair": {}}})  # fmt: skip
+    with pytest.raises(InputError, match=r"design.candidate = 'conical-pair': the search has fast"):
+        chosen_candidate(scene)
+
+
 def test_the_search_finds_what_a_fine_scan_finds(cube, series, found):
     """The least energy at the required margin, over all viscosities and a fine scan of ψ."""
     scene = scene_of(cube)
@@ -314,6 +341,19 @@ def test_the_page_says_the_conclusion_and_draws_front_and_map(found):
         assert link.startswith("#") or (found.path / link).exists(), link
     data = json.loads((found.path / "design.json").read_text(encoding="utf-8"))
     assert len(data["designs"]) == len(found.designs.points)
+
+
+def test_a_best_design_at_an_end_of_its_range_says_so(found):
+    """Beyond it may be a better one, which no one has looked at."""
+    axes = found.designs.space.axes
+    middle = np.array([0.5 * (axis.low + axis.high) for axis in axes])
+    assert replace(found.designs, best=middle).at_ends == ()
+    last = middle.copy()
+    last[0] = axes[0].high - 0.01 * (axes[0].high - axes[0].low)
+    there = replace(found.designs, best=last)
+    assert there.at_ends == (axes[0].key,)
+    assert f"At an end of its range: {axes[0].key.replace('geometry.', '')}." in there.conclusion
+    assert replace(found.designs, best=None).at_ends == ()
 
 
 @pytest.mark.slow

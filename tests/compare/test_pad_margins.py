@@ -201,7 +201,7 @@ def margins_of_lost_films(monkeypatch, films):
 
 def test_films_that_carry_nowhere_when_they_are_solved_again_have_no_margin(monkeypatch):
     none = np.full(40, np.nan)
-    lost = PadFilms(none, none, none, np.ones(40, bool))
+    lost = PadFilms(none, none, none, np.ones(40, bool), none)
     found = margins_of_lost_films(monkeypatch, lambda *about: lost)
     assert [math.isnan(one.factor) for one in found] == [True, True]
     assert all("in N2 (gust): solved again, its film carries" in one.uncounted for one in found)
@@ -250,3 +250,24 @@ def test_all_ends_of_a_warm_collar_share_the_tables_of_the_stated_one():
     cold, warm = ends["oil temperature"]
     assert warm < stated["minimum_film"] < cold
     assert set(ends) == {"clearance", "oil grade", "oil temperature", "roughness"}
+
+
+def test_bands_of_a_collar_hold_its_pressure_against_the_material_as_warm_as_its_films():
+    """What the material carries where the films are, some 330 K, not what it carries cold."""
+    samples = series(6).assign(
+        load_factor=("sample", np.ones(6)), ultimate=("sample", np.ones(6, bool))
+    )
+    tree = xr.DataTree.from_dict({"N2": samples})
+    tree.attrs["seconds"] = 3e7
+
+    def factor(*material):
+        limits = {"material": material, "minimum_film": 1e-7}
+        thrust = collar(limits=limits, play=4.2e-4)
+        return cheap_numbers(Built(Candidate(thrust=thrust), Friction(), tree))["load_factor"]
+
+    warm = pad_films(collar(play=4.2e-4).bearings["N2"], samples).temperature
+    hot = float(warm.max())
+    assert 305.0 < float(warm.min()) <= hot < 400.0
+    always, at_last = factor([500.0, 7e6]), factor([300.0, 7e6], [hot, 3.5e6], [500.0, 3.5e6])
+    assert at_last < 0.8 * always
+    assert at_last == pytest.approx(factor([500.0, 3.5e6]), rel=0.05)

@@ -23,6 +23,7 @@ from loadflow.journal import (
     Pump,
     Supply,
 )
+from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.models import grid
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.newton import solve_film
@@ -307,3 +308,25 @@ def test_a_growing_load_that_has_closed_the_ends_of_a_shell_grows_no_further(mon
     with pytest.raises(SolverError, match="touches the elastic shell"):
         drawn("shell", 2366)[1]()
     assert sum(steps) < 600  # 1574 where it grows to where none is found
+
+
+@pytest.mark.parametrize("number", [238, 71])
+def test_a_search_that_leads_nowhere_ends_after_a_count_of_steps_that_it_tells(number, monkeypatch):
+    """Its steps and cells are counted, so that it ends at the same place on every machine."""
+    cells: list[float] = []
+    linearise = DiscreteFilm.linearise
+
+    def counted(film: DiscreteFilm, *given: Any, **words: Any) -> Any:
+        cells.append(film.mesh.order.size)
+        return linearise(film, *given, **words)
+
+    monkeypatch.setattr(DiscreteFilm, "linearise", counted)
+    told = r"residual \S+ after (\d+) steps, .*all that a search may take"
+    with pytest.raises(SolverError, match=told):
+        drawn("composed", number)[1]()
+    assert sum(cells) < 6e5  # 1.9e6 of number 238 where every search came to its own end
+
+
+def test_the_cells_asked_for_leave_a_search_enough_for_twice_as_many():
+    """Number 3084 has no film in its shell on 48 cells around, however long it is sought."""
+    assert drawn("shell", 3084)[1]().converged

@@ -21,7 +21,6 @@ from loadflow.journal import (
     Reynolds,
     Sommerfeld,
     Supply,
-    ThickShell,
     TiltingPads,
     stribeck,
 )
@@ -281,11 +280,6 @@ def test_flow_factors_of_patterns_along_and_across():
 @pytest.mark.parametrize(
     ("words", "size", "named"),
     [
-        (
-            {"shell": ThickShell(0.4, 2e11), "rung": "reduced", "inlet": None},
-            {},
-            "contact = .* gives way all over",
-        ),
         ({}, {"shape": TiltingPads(4, np.radians(60.0))}, "contact = .* pads that tilt"),
         ({"rung": "map"}, {}, "rung = 'map' .* contact of asperities"),
     ],

@@ -44,6 +44,16 @@ def test_a_stop_is_answered_sample_by_sample(alone):
     assert (np.diff(states.minimum_film[:9]) < 0.0).all()
 
 
+def test_a_creeping_load_has_its_own_moment_among_several(alone):
+    speed = np.array([3e-3, 1e-4, 0.0])
+    force = np.tile((2e6, 4e5), (speed.size, 1))
+    moment = np.array([(2e3, -1e3), (4e3, 2e3), (-3e3, 1e3)])
+    states = BEARING.equilibrium(force, speed, FILM, strict=False, moment=moment)
+    assert states.converged.all()
+    one = BEARING.equilibrium(force[1], speed[1], FILM, moment=moment[1])
+    np.testing.assert_allclose(states.tilt[1], one.tilt, rtol=1e-6)
+
+
 @pytest.mark.parametrize("line", [{}, TILTED], ids=["aligned", "tilted"])
 @pytest.mark.parametrize("first", [1e-3, 0.0])
 def test_a_series_begins_at_standstill_and_creeping_without_the_grid(first, line, monkeypatch):

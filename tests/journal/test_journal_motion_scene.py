@@ -9,7 +9,7 @@ from loadflow.quantities import percent
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import journal as stage
-from loadflow.stages.effects import film
+from loadflow.stages.effects import film, film_tilt
 from loadflow.stages.film_of_bearing import aligned, follow
 from loadflow.stages.journal import fast_film
 
@@ -124,11 +124,11 @@ def test_a_run_tells_of_paths_that_its_cells_do_not_resolve(grid):
 
 def test_the_plan_may_have_tilt_and_motion_together():
     scene = make_scene({"journal": MOVING, "shaft": {"two_point": {"beam": {}}}})
-    tilted = film.TILT.switched(scene, True)
+    tilted = film_tilt.TILT.switched(scene, True)
     assert tilted is not None
     assert tilted.journal.tilt
     assert tilted.journal.in_motion
-    assert film.TILT.known_by(tilted)
+    assert film_tilt.TILT.known_by(tilted)
     assert film.MOTION.is_on(tilted)
 
 

@@ -7,7 +7,6 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.journal import (
-    Contact,
     Control,
     Feet,
     Film,
@@ -31,7 +30,6 @@ from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.gap_mesh import shaped_mesh
 from loadflow.journal.models.composed_shell import _split
 from loadflow.journal.models.shared_path import Lying, follow_shared
-from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING, SPEED, LOAD = JournalBearing(**SIZE), 60.0, np.array([6e3, -2.5e4])
@@ -247,9 +245,6 @@ def test_lobes_in_a_shell_are_those_of_the_grid(alone):
 
 
 def test_what_a_shell_all_over_does_not_go_with_is_named():
-    rough = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
-    with pytest.raises(InputError, match=r'contact = .* gives way all over; "grid" has both'):
-        BEARING.equilibrium(LOAD, SPEED, replace(REDUCED, contact=rough))
     lobed = JournalBearing(**SIZE, shape=Lobes(3, preload=0.3))
     given = replace(REDUCED, grid=(36, 8), shell=MatrixShell(1e-12 * np.eye(36 * 8)))
     with pytest.raises(InputError, match="known on every grid"):

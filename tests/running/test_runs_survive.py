@@ -21,7 +21,8 @@ from loadflow.running.folder import MANIFEST, read_manifest, refinements
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.runner import run
-from loadflow.scene.scene import Scene, with_name
+from loadflow.scene.changed import with_name
+from loadflow.scene.scene import Scene
 from loadflow.storage import check_name
 
 HERE = Path(__file__).parent
@@ -490,6 +491,21 @@ def test_cores_are_counted_on_systems_without_affinity(monkeypatch):
     monkeypatch.delattr(os, "sched_getaffinity", raising=False)
     monkeypatch.delattr(os, "process_cpu_count", raising=False)
     assert usable_cores() == os.cpu_count()
+
+
+@pytest.mark.parametrize(("system", "most"), [("win32", 61), ("linux", 96)])
+def test_windows_has_no_more_processes_than_it_can_wait_for(system, most, monkeypatch):
+    class Idle:
+        def __init__(self, workers):
+            self.workers = workers
+
+        def kill(self):
+            pass
+
+    monkeypatch.setattr(f"{usable_cores.__module__}._Processes", Idle)
+    monkeypatch.setattr(sys, "platform", system)
+    with executor(96, None) as where:
+        assert where.workers == most
 
 
 def test_the_log_of_a_run_is_in_its_folder(finished):

@@ -11,8 +11,9 @@ from loadflow.cli import main
 from loadflow.errors import FormerVersionWarning, InputError
 from loadflow.rolling import SlewingBearing, SphericalRollerBearing, ToroidalRollerBearing
 from loadflow.scene.candidates import candidates_of, machine_names
+from loadflow.scene.changed import with_loads
 from loadflow.scene.places import PLACE_KINDS, places_of, sections_of
-from loadflow.scene.scene import make_scene, read_scene, with_loads
+from loadflow.scene.scene import make_scene, read_scene
 from loadflow.scene.schema import json_schema
 from loadflow.scene.written import SCENE
 
@@ -188,6 +189,28 @@ def test_what_is_no_bearing_is_refused_by_its_place(places, told):
     with pytest.raises(InputError, match="bearings") as info:
         make_scene({"bearings": places} | TWO)
     assert told in str(info.value)
+
+
+def test_all_bad_bearings_are_told_at_once_and_what_is_wrong_beside_them():
+    places = {"N": {"kind": "jornal"}, "N2": {"kind": "journal"}, "M": {"kind": "roller"}}
+    with pytest.raises(InputError) as caught:
+        make_scene({"loads": {"seed": 2}, "bearings": places}, "own.toml")
+    lines = str(caught.value).splitlines()
+    told = (
+        "bearings.N.kind: must be one of",
+        "bearings.M.geometry: must be",
+        "loads.seed: unknown",
+    )
+    assert len(lines) == len(told)
+    for line, part in zip(lines, told):
+        assert line.startswith("own.toml: ")
+        assert part in line
+
+
+def test_what_is_wrong_for_want_of_the_bearings_is_not_told():
+    with pytest.raises(InputError) as caught:
+        make_scene({"results": ["thrust.film"], "bearings": {"N": {"kind": "jornal"}}})
+    assert len(str(caught.value).splitlines()) == 1
 
 
 def test_a_bad_value_is_named_where_it_was_written():

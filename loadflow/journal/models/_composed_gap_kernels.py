@@ -1,4 +1,4 @@
-"""Compiled gap of the reduced film with effects, and the asperities in it.
+"""Compiled gap of the reduced film with effects.
 
 At a position q of the shaft the shell, the mean gap and the conductances of points and faces follow
 from law and unknowns; `film` and `work` are those of `composed_film`.
@@ -16,12 +16,14 @@ from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._full_kernels import keep_full
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
-from loadflow.journal.models._shell_growth_kernels import give_way
-from loadflow.journal.models._small_systems import fill_upper
+from loadflow.journal.models._shell_rub_kernels import give_way
+from loadflow.journal.models._thickening_kernels import thicken
+from loadflow.journal.models._touch_kernels import opened
 from loadflow.numerics.lanes import LANES, put, take
 
 PLANES, MEAN, OPEN, CUBE = range(4)  # of `work.gap`
 FLOW, DRAG, FLOW_SLOPE, DRAG_SLOPE, FACE_PLANES = range(5)  # of `work.face`
+_NONE = 1e290
 _FAR = 8.5  # film parameter above which the mean gap is that of the mean planes, to rounding
 
 
@@ -30,6 +32,7 @@ def place(film, work, q):
     """Evaluate law, shell and gap at the unknowns and the position `q` (4,)."""
     apply_law(film.ring.law, film.ring.numbers, film.ring.scale, work.u, work.state)
     keep_full(film, work)
+    thicken(film, work)
     nx, wide = work.u.shape
     z = film.places.z
     for k in range(z.size):
@@ -56,7 +59,7 @@ def place(film, work, q):
             put(planes, here, h)
             put(faces, here, after)
     if give > 0.0:
-        give_way(film, work, planes, faces)
+        give_way(film, work, q, planes, faces)
         _join(film, work)
     if film.rough.size > 0.0:
         _rough_gap(film, work)
@@ -132,25 +135,6 @@ def smooth_beyond(rough):
     return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
 
 
-@inner
-def opened(yielding, h):
-    """Gap where asperities press the shell open, and its derivative by the gap `h` without that."""
-    if not yielding.on or h >= yielding.first + yielding.step * (yielding.table.shape[1] - 1):
-        return h, 1.0
-    return _of_table(yielding, 0, h)
-
-
-@inner
-def _of_table(yielding, row, h):
-    """A value of the table and its derivative; straight on before its first."""
-    place_in = (h - yielding.first) / yielding.step
-    if place_in <= 0.0:
-        slope = yielding.table[row + 1, 0]
-        return yielding.table[row, 0] + (h - yielding.first) * slope, slope
-    i = min(int(place_in), yielding.table.shape[1] - 2)
-    return _between(yielding.table[row], yielding.table[row + 1], i, place_in - i, yielding.step)
-
-
 @beside(lambda film, work: None)
 def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
@@ -193,7 +177,8 @@ def _rough_gap(film, work):
 @inner
 def has_gap(film, work):
     """Whether every place keeps a gap, between rough surfaces one in which contact is known."""
-    return narrowest(film, work) + film.rough.deepest > NO_GAP
+    left = narrowest(film, work) + film.rough.deepest
+    return NO_GAP < left < _NONE  # where no gap is a number, none is found
 
 
 @inner
@@ -278,171 +263,3 @@ def share_of_step(film, work, dx, dy, tilt_x, tilt_y, kept):
             if closes > 0.0 and share * closes > left:
                 share = left / closes
     return share
-
-
-@inner
-def touch(film, work, q):
-    """Load of the asperities and its derivative into `work.touch`, ∫ p_a into `work.normal`."""
-    work.touch[:] = 0.0
-    if film.rough.size > 0.0 and film.yielding.on:
-        work.normal[0] = _touch_shell(film, work, q)
-    elif film.rough.size > 0.0:
-        work.normal[0] = _touch_bore(film, work, q)
-
-
-@beside(lambda film, work, q: 0.0)
-def _touch_bore(film, work, q):
-    """∫ p_a and `work.touch` in a rigid cylindrical bore, by the table of a line of contact."""
-    normal, rough = 0.0, film.rough
-    last = rough.table.shape[1] - 2
-    load, stiffness = work.touch[0], work.touch[1:]
-    for g in range(rough.z.size):
-        z, w = rough.z[g], rough.weights[g]
-        ex = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
-        ey = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
-        ratio = np.hypot(ex, ey)
-        if not ratio > rough.first:
-            continue
-        place_in = (ratio - rough.first) / rough.step
-        i = min(int(place_in), last)
-        force, rise = _between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
-        pressed, _ = _between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
-        normal += w * pressed
-        push(load, stiffness, z, ex / ratio, ey / ratio, w * force, w * rise, w * force / ratio)
-    fill_upper(stiffness)
-    return normal
-
-
-@beside(lambda film, work, q: 0.0)
-def _touch_shell(film, work, q):
-    """∫ p_a and `work.touch` on a shell that is pressed open, in a shaped bore, or beside grooves.
-
-    Between two cell centres the pressure of the film, and so the gap by it, runs straight. Fills
-    `work.pressed`, too.
-    """
-    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
-    yielding, ring, give, grows = film.yielding, film.ring, film.give, film.uneven.grows
-    p, pressed, load, stiffness = work.state[LOAD], work.pressed, work.touch[0], work.touch[1:]
-    pressed[:] = 0.0
-    beyond = yielding.first + yielding.step * (yielding.table.shape[1] - 1)
-    normal = 0.0
-    for g in range(yielding.z.size):
-        z = yielding.z[g]
-        mid_x = q[0] + q[3] * z + 0.5 * work.bend[0] * z * z
-        mid_y = q[1] - q[2] * z + 0.5 * work.bend[1] * z * z
-        depth = yielding.depth[g]
-        far = 1.0 + depth - np.hypot(mid_x, mid_y) >= beyond
-        if far and not (ring.shaped or grows):
-            continue
-        there = give * _across(yielding.values[g], p[0], ring.p_edge)
-        if grows:
-            there += film.uneven.beside[0, g]
-        for i in range(nx):
-            right = i + 1 if i + 1 < nx else 0
-            here, there = there, give * _across(yielding.values[g], p[right], ring.p_edge)
-            if grows:
-                there += film.uneven.beside[right, g]
-            if yielding.grooves[g, i]:
-                continue
-            step = ring.apart[i]
-            wide, ex, ey = depth + ring.lobe[0, i], mid_x + ring.lobe[1, i], mid_y + ring.lobe[2, i]
-            edge = wide - ex * ring.cos[i] - ey * ring.sin[i] + here
-            other = wide - ex * ring.cos[right] - ey * ring.sin[right] + there
-            dip = 0.125 * step * step  # of a gap between two places, at most
-            if ring.groove[i]:
-                edge = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i] + min(here, 0.0)
-            if ring.groove[right]:
-                other = wide - ex * ring.cos_face[i] - ey * ring.sin_face[i] + min(there, 0.0)
-            if min(edge, other) - dip * (abs(ex) + abs(ey)) >= beyond:
-                continue
-            total, along_x, along_y = 0.0, 0.0, 0.0
-            xx, xy, yy = 0.0, 0.0, 0.0
-            high_x, high_y, rise_x, rise_y = 0.0, 0.0, 0.0, 0.0
-            for n in range(yielding.share.size):
-                share, c, s = yielding.share[n], yielding.cos[i, n], yielding.sin[i, n]
-                h = wide - ex * c - ey * s + here + share * (there - here)
-                if h >= beyond:
-                    continue
-                value, rise = _of_table(yielding, 2, h)
-                value, rise = yielding.part[n] * value, yielding.part[n] * rise
-                total += value
-                along_x += value * c
-                along_y += value * s
-                by_x, by_y = rise * c, rise * s
-                rise_x += by_x
-                rise_y += by_y
-                high_x += share * by_x
-                high_y += share * by_y
-                xx += by_x * c
-                xy += by_x * s
-                yy += by_y * s
-            weight = yielding.weights[g] * step * yielding.unit
-            normal += weight * total
-            _add_modes(load, z, weight * along_x, weight * along_y)
-            _take_modes(stiffness, z, weight * xx, weight * xy, weight * yy)
-            if give > 0.0:
-                weight *= give
-                low_x, low_y = weight * (rise_x - high_x), weight * (rise_y - high_y)
-                high_x, high_y = weight * high_x, weight * high_y
-                for k in range(m):
-                    value = yielding.values[g, k]
-                    _add_modes(pressed[:, i, k], z, value * low_x, value * low_y)
-                    _add_modes(pressed[:, right, k], z, value * high_x, value * high_y)
-    fill_upper(stiffness)
-    return normal
-
-
-@inner
-def _across(values, pressure, outside):
-    """Pressure above that `outside` at a place across, from that at the points."""
-    total = 0.0
-    for k in range(values.size):
-        total += values[k] * (pressure[k] - outside)
-    return total
-
-
-@inner
-def push(load, stiffness, z, c, s, force, along, aside):
-    """Add a force at `z` that pushes the shaft back from (c, s), and what it rises by there.
-
-    By a motion along that way, and aside, into the lower half of `stiffness` (4, 4).
-    """
-    _add_modes(load, z, force * c, force * s)
-    xx, yy = along * c * c + aside * s * s, along * s * s + aside * c * c
-    _take_modes(stiffness, z, -xx, -(along - aside) * c * s, -yy)
-
-
-@inner
-def _add_modes(sums, z, x, y):
-    """Add a load at a place `z` along the shaft to forces and moments (4,)."""
-    sums[0] += x
-    sums[1] += y
-    sums[2] -= z * y
-    sums[3] += z * x
-
-
-@inner
-def _take_modes(stiffness, z, xx, xy, yy):
-    """Take the rise of a load at `z` from the lower half of a stiffness (4, 4)."""
-    stiffness[0, 0] -= xx
-    stiffness[1, 0] -= xy
-    stiffness[1, 1] -= yy
-    stiffness[2, 0] += z * xy
-    stiffness[2, 1] += z * yy
-    stiffness[2, 2] -= z * z * yy
-    stiffness[3, 0] -= z * xx
-    stiffness[3, 1] -= z * xy
-    stiffness[3, 2] += z * z * xy
-    stiffness[3, 3] -= z * z * xx
-
-
-@inner
-def _between(values, slopes, i, t, step):
-    """Cubic through values and slopes at i and i + 1, and its slope; straight on beyond."""
-    if t > 1.0:
-        return values[i + 1] + (t - 1.0) * step * slopes[i + 1], slopes[i + 1]
-    a, b = values[i], values[i + 1]
-    u, v = step * slopes[i], step * slopes[i + 1]
-    second, third = 3.0 * (b - a) - 2.0 * u - v, 2.0 * (a - b) + u + v
-    value = a + t * (u + t * (second + t * third))
-    return value, (u + t * (2.0 * second + 3.0 * t * third)) / step

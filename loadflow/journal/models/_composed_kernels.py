@@ -21,7 +21,9 @@ from loadflow.journal.models._composed_gap_kernels import (
     OPEN,
     narrowest,
 )
-from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._of_effects import beside, of_shell
+from loadflow.journal.models._shell_growth_kernels import load_of, open_by, respond
+from loadflow.journal.models._shell_step_kernels import follow_place
 from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
@@ -145,6 +147,7 @@ def slopes_of_balance(film, work, wedge, rate, size):
         hold_points(film, work, 1, 1 + size, rate)
     if ring.shaped:
         _hold_grooves(film, columns, 1, 5)
+    follow_place(film, work, wedge, rate, size)
 
 
 @once
@@ -300,6 +303,7 @@ def carry(film, work, size):
                 carried[column, 3] += x * z[k]
     if film.yielding.on:
         _carry_touch(film, work, size)
+        _carry_growth(film, work, size)
 
 
 @beside(lambda film, work, size: None)
@@ -313,3 +317,20 @@ def _carry_touch(film, work, size):
                 change = slope * work.columns[column, i, k]
                 for a in range(size):
                     work.carried[column, a] += work.pressed[a, i, k] * change
+
+
+@of_shell(lambda film, work, size: None)
+def _carry_growth(film, work, size):
+    """Add what they carry more by a shell that gives way all over."""
+    modes, rub = work.modes, work.modes.rub
+    if rub.on[0] > 0.0:
+        for column in range(1 + size):
+            load_of(work, work.columns, column * work.u.size)
+            respond(film, work, modes.other)
+            open_by(film, modes.other, modes.change)
+            for i in range(rub.touched.size):
+                if rub.touched[i]:
+                    for k in range(film.nodes.z.size):
+                        for a in range(size):
+                            more = rub.pushed[a, i, k] * modes.change[i, k]
+                            work.carried[column, a] += more

@@ -18,7 +18,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     narrowest,
     place,
     share_of_step,
-    touch,
     turn,
 )
 from loadflow.journal.models._composed_kernels import (
@@ -53,6 +52,8 @@ from loadflow.journal.models._supply_kernels import (
     follow_grooves,
     unfed,
 )
+from loadflow.journal.models._thickening_kernels import share_of_rise
+from loadflow.journal.models._touch_kernels import touch
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 from loadflow.numerics.references import refer
@@ -165,12 +166,13 @@ def _advance(film, work, q, step, size):
     if film.give == 0.0:
         if size > 0:
             _limited(film, work, q, step)
-        correct(film, work, step, size, 1.0)
+        share = share_of_rise(film, work, step, size)
+        correct(film, work, step, size, share)
         for a in range(4):
-            q[a] += step[a]
+            q[a] += share * step[a]
         place(film, work, q)
         return
-    gap, share, done = narrowest(film, work), 1.0, 0.0
+    gap, share, done = narrowest(film, work), share_of_rise(film, work, step, size), 0.0
     least = max(gap - (1.0 - KEPT) * max(gap, film.rough.size), -film.rough.deepest)
     while True:
         correct(film, work, step, size, share)

@@ -21,11 +21,12 @@ from loadflow.journal.models._composed_gap_kernels import (
     OPEN,
     PLANES,
     narrowest,
-    opened,
     smooth_beyond,
 )
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._shell_growth_kernels import largest_growth
+from loadflow.journal.models._thickening_kernels import lost_more, pressure_at, thickness_at
+from loadflow.journal.models._touch_kernels import opened
 from loadflow.numerics.lanes import LANES, larger, put, spread, take
 
 
@@ -42,7 +43,7 @@ def summarise(film, work, q, wedge, rate, row):
     p, fill, gap, flows = work.state[LOAD], work.state[FILL], work.gap, work.face[FLOW]
     mean, cube, planes, rows = gap[MEAN], gap[CUBE], gap[PLANES], work.row
     plain = film.rough.size == 0.0 and not (film.yielding.on or film.regime.on or film.held.on)
-    plain = plain and not film.uneven.on
+    plain = plain and not (film.uneven.on or film.thickening.on)
     for at in range(0, wide, LANES):
         lost, sheared_at = spread(0.0), spread(0.0)
         liquid_at, volume_at = spread(0.0), spread(0.0)
@@ -66,7 +67,7 @@ def summarise(film, work, q, wedge, rate, row):
         put(rows, wide + at, sheared_at)
         put(rows, 2 * wide + at, liquid_at)
         put(rows, 3 * wide + at, volume_at)
-    dissipation, shear, liquid, volume = -_cut_off(film, work), 0.0, 0.0, 0.0
+    dissipation, shear, liquid, volume = lost_more(film, work) - _cut_off(film, work), 0.0, 0.0, 0.0
     for k in range(nodes.z.size):
         dissipation, shear = dissipation + rows[0, k], shear + rows[1, k]
         liquid, volume = liquid + rows[2, k], volume + rows[3, k]
@@ -125,7 +126,7 @@ def summarise(film, work, q, wedge, rate, row):
     for j in range(work.fed.size):
         i, k = film.feeding.samples[j, 0], film.feeding.samples[j, 1]
         row[film_.RESULTS + j] = work.fed[j]
-        row[film_.RESULTS + work.fed.size + j] = work.state[P, i, k]
+        row[film_.RESULTS + work.fed.size + j] = pressure_at(film, work, i, k)
 
 
 @once
@@ -176,7 +177,7 @@ def _cut_off(film, work):
     for i in range(ring.cos.size):
         p, load, floor = work.state[P, i], work.state[LOAD, i], -np.inf
         for k in range(m):
-            if p[k] < load[k]:
+            if pressure_at(film, work, i, k) < load[k]:
                 floor = load[k]
         if ring.groove[i] or floor == -np.inf:
             continue
@@ -214,6 +215,7 @@ def _uneven(film, work):
             grown = max(grown, grows)
             if film.uneven.on:
                 inverse *= work.state[FILL, i, k] if k < m else film.ring.edge_fill
+            inverse *= thickness_at(film, work, i, k)
             part = film.nodes.weights[k] * film.ring.width[i] * inverse
             if film.uneven.on:
                 work.sheared[i, k] = part

@@ -20,7 +20,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     narrowest,
     place,
     share_of_step,
-    touch,
     turn,
 )
 from loadflow.journal.models._composed_kernels import balance, carry, matrix, slopes_of_balance
@@ -42,6 +41,7 @@ from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import leaves_room
 from loadflow.journal.models._stop_kernels import stop
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
+from loadflow.journal.models._touch_kernels import touch
 from loadflow.journal.models.composed_film import Composed, ComposedWork
 from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
 from loadflow.numerics.references import refer
@@ -219,7 +219,7 @@ def _solve(one, other, shared, speed, rate, fresh):
                     continue
                 system[c, many] -= side.felt[a, c] * work.carried[0, a]
                 for b in range(size):
-                    slope = work.carried[1 + b, a] - work.touch[1 + b, a]
+                    slope = work.carried[1 + b, a] - work.touch[1 + a, b]
                     for d in range(many):
                         system[c, d] += side.felt[a, c] * slope * side.lies[b, d]
     if not solve_system(system, many):

@@ -5,28 +5,8 @@ from __future__ import annotations
 from loadflow.journal.cavitation import DLOAD, LOAD
 from loadflow.journal.models._compile import inner
 from loadflow.journal.models._of_effects import of_shell
+from loadflow.journal.models._small_systems import substitute_into
 from loadflow.numerics.lanes import LANES, put, spread, take
-
-
-@of_shell(lambda film, work, planes, faces: None)
-def give_way(film, work, planes, faces):
-    """Add to the gaps of points and faces what the pressure makes of the modes, after the law.
-
-    A face grows by the mean of both columns beside it, as in a shell that gives way locally.
-    """
-    modes = work.modes
-    nx, wide = work.u.shape
-    for here in range(0, work.u.size, LANES):
-        put(modes.change, here, take(work.state[LOAD], here) - film.ring.p_edge)
-    press(film, work, modes.amplitude)
-    open_by(film, modes.amplitude, modes.growth)
-    for i in range(nx):
-        for at in range(0, wide, LANES):
-            here, right = i * wide + at, (i + 1 if i + 1 < nx else 0) * wide + at
-            own = take(modes.growth, here)
-            put(planes, here, take(planes, here) + own)
-            both = (own + take(modes.growth, right)) * 0.5
-            put(faces, here, take(faces, here) + both)
 
 
 @inner
@@ -62,12 +42,66 @@ def load_of(work, columns, begin):
         put(work.modes.change, here, take(columns, begin + here) * take(work.state[DLOAD], here))
 
 
+@inner
+def press_by(film, work, force, amplitude):
+    """Add to the amplitudes what the `force` of asperities (nx, L), N, makes of the modes."""
+    rub, rubbed, row = work.modes.rub, film.modes.rubbed, work.modes.row
+    nx, wide = work.u.shape
+    for j in range(rubbed.shape[0]):
+        total = spread(0.0)
+        for i in range(nx):
+            if rub.touched[i]:
+                for here in range(i * wide, (i + 1) * wide, LANES):
+                    pressed = take(rubbed, j * nx * wide + here)
+                    total = total + pressed * take(force, here)
+        put(row, 0, total)
+        for k in range(LANES):
+            amplitude[j] += row[k]
+
+
+@inner
+def give_back(film, work, growth, amplitude):
+    """Add to the amplitudes what the asperities make of a `growth` of the gap (nx, L)."""
+    rub = work.modes.rub
+    nx, points = rub.touched.size, film.nodes.z.size
+    for i in range(nx):
+        if rub.touched[i]:
+            left, right = i - 1 if i > 0 else nx - 1, i + 1 if i + 1 < nx else 0
+            for k in range(points):
+                total = 0.0
+                for n in range(points):
+                    total += rub.own[i, k, n] * growth[i, n]
+                    total += rub.next[i, k, n] * growth[right, n]
+                    total += rub.next[left, k, n] * growth[left, n]
+                rub.change[i, k] = total
+    press_by(film, work, rub.change, amplitude)
+
+
+@inner
+def respond(film, work, amplitude):
+    """Amplitudes by a change of the film's pressure, `work.modes.change`, Pa, after `give_way`.
+
+    Asperities give back what it opens between them.
+    """
+    press(film, work, amplitude)
+    rub = work.modes.rub
+    if rub.on[0] > 0.0:
+        for i in range(rub.touched.size):
+            for k in range(film.nodes.slopes.shape[1]):
+                rub.local[i, k] = film.give * work.modes.change[i, k]
+        give_back(film, work, rub.local, amplitude)
+        substitute_into(rub.matrix, rub.order, amplitude)
+
+
 @of_shell(lambda film, work, column: None)
 def _open_all_over(film, work, column):
     """Growth of the gap by the modes, into `work.modes.change`, by a column of unknowns."""
     modes = work.modes
     load_of(work, work.columns, column * work.u.size)
-    press(film, work, modes.other)
+    respond(film, work, modes.other)
+    if modes.rub.on[0] > 0.0:  # the shell follows the shaft, too
+        for j in range(modes.other.size):
+            modes.other[j] -= modes.rub.by_place[column - 1, j]
     open_by(film, modes.other, modes.change)
 
 

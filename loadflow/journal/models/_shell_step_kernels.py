@@ -4,7 +4,8 @@ The factors of a film know what a shell owes to the pressure of a place itself. 
 the gap by its modes, Φ, their amplitudes by the pressure, P, and the change of the balance by the
 growth, J, a step x is that of ``(A + J Φ P) x = b``. Their amplitudes a = P x follow from
 ``(1 + P A⁻¹ J Φ) a = P A⁻¹ b`` by GMRES [Saad and Schultz 1986]: it takes few steps where the shell
-is stiffer than the film, and no more than there are modes.
+is stiffer than the film, and no more than there are modes. Where asperities touch, P is that of
+`_shell_rub_kernels`.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._composed_gap_kernels import DRAG_SLOPE, FLOW_SLOPE, OPEN
 from loadflow.journal.models._of_effects import of_shell
 from loadflow.journal.models._ring_kernels import substitute
-from loadflow.journal.models._shell_growth_kernels import load_of, open_by, press
+from loadflow.journal.models._shell_growth_kernels import load_of, open_by, respond
 from loadflow.numerics.lanes import LANES, put, spread, take
 
 NEAR = 1e-4  # of the amplitudes of a Newton step, what GMRES may leave
@@ -35,12 +36,25 @@ def _follow(film, work, wedge, rate, count, left):
     modes, block = work.modes, work.u.size
     for column in range(count):
         load_of(work, work.columns, column * block)
-        press(film, work, modes.basis[0])
+        respond(film, work, modes.basis[0])
         _krylov(film, work, wedge, rate, left)
         _answer(film, work, wedge, rate, modes.other)
         for here in range(0, block, LANES):
             own = take(work.columns, column * block + here)
             put(work.columns, column * block + here, own - take(modes.column, here))
+
+
+@of_shell(lambda film, work, wedge, rate, size: None)
+def follow_place(film, work, wedge, rate, size):
+    """Let `size` columns know how asperities take a shell with the shaft, before `substitute`."""
+    rub, block = work.modes.rub, work.u.size
+    if rub.on[0] > 0.0:
+        for a in range(size):
+            open_by(film, rub.by_place[a], work.modes.change)
+            _by_growth(film, work, wedge, rate)
+            for here in range(0, block, LANES):
+                own = take(work.columns, (1 + a) * block + here)
+                put(work.columns, (1 + a) * block + here, own + take(work.modes.column, here))
 
 
 @inner
@@ -69,7 +83,7 @@ def _krylov(film, work, wedge, rate, left):
         n = steps
         _answer(film, work, wedge, rate, basis[n])
         load_of(work, modes.column, 0)
-        press(film, work, basis[n + 1])
+        respond(film, work, basis[n + 1])
         for j in range(size):
             basis[n + 1, j] += basis[n, j]
         for k in range(n + 1):

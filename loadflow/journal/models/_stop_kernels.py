@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.journal.models._compile import once
-from loadflow.journal.models._composed_gap_kernels import push
 from loadflow.journal.models._small_systems import fill_upper
+from loadflow.journal.models._touch_kernels import push
 
 
 @once

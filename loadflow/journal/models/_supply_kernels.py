@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from loadflow.journal.cavitation import DFILL, DP, FILL, P
+from loadflow.journal.cavitation import DFILL, DP, FILL
 from loadflow.journal.film.feed import mismatch_of
 from loadflow.journal.models._compile import inner
 from loadflow.journal.models._composed_gap_kernels import CUBE, DRAG, FLOW, MEAN, OPEN
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._small_systems import solve_system
+from loadflow.journal.models._thickening_kernels import pressure_at, thickness_at
 from loadflow.journal.supply import at_pump
 
 _mismatch, _at_pump = inner(mismatch_of), inner(at_pump)
@@ -97,7 +98,8 @@ def _join(film, work):
         slot = feeding.slots[j]
         if slot >= 0:
             border.flow[slot] *= feeding.unit
-            border.pressure[slot] = work.state[P, feeding.samples[j, 0], feeding.samples[j, 1]]
+            i, k = feeding.samples[j, 0], feeding.samples[j, 1]
+            border.pressure[slot] = pressure_at(film, work, i, k)
     _mismatch(
         feeding.table, _at_pump, border.pressure, border.flow, film.ring.scale,
         border.missing, border.by_pressure, border.by_flow,
@@ -168,6 +170,7 @@ def follow_grooves(film, work, wedge, rate, size, fresh):
         for a in range(count):
             at = feeding.first[a]
             slope = border.by_pressure[a] * work.state[DP, at // m, at % m]
+            slope *= thickness_at(film, work, at // m, at % m)
             border.system[a, count] = border.missing[a] if column == 0 else 0.0
             for b in range(count):
                 border.system[a, b] = slope if a == b else 0.0

@@ -19,7 +19,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed_film import RIGID, Rough, Yielding
 from loadflow.journal.models.composed_supply import parted_at
 from loadflow.journal.models.ring import Ring
-from loadflow.journal.models.width_modes import at_places
+from loadflow.journal.models.width_modes import Nodes, on_places
 from loadflow.journal.supply import Supply
 from loadflow.tribology.kernels import pressure_integral
 
@@ -86,13 +86,13 @@ def yielding_of(
     options: Film,
     give: float,
     whole: bool,
-    points: int,
+    nodes: Nodes,
     ring: Ring,
     grows: bool = False,
 ) -> Yielding:
     """Asperities on a shell that gives way by `give`, clearances per Pa, or in a shaped bore.
 
-    `points` across carry the pressure; a bore that `grows` by heat has a shape, too.
+    The pressure is that of `nodes` across; a bore that `grows` by heat has a shape, too.
     """
     contact, supply = options.contact, options.supply
     shaped = bearing.shape.segments or bearing.relief
@@ -100,7 +100,9 @@ def yielding_of(
         return RIGID
     half = bearing.width / bearing.diameter
     x, w = _lines(supply, bearing, whole)
-    values = at_places(points, whole, x) if give else np.zeros((x.size, points))
+    marks = () if supply is None else parted_at(supply, bearing)
+    growth = on_places(nodes, marks, whole, x)
+    values = np.ascontiguousarray(growth[:, : nodes.slopes.shape[1]])
     angle, around = np.arctan2(ring.sin, ring.cos), options.cells[0]
     numbers = groove_numbers(angle, half * x, half, supply, around, bearing.radius).T
     held = np.ascontiguousarray(numbers >= 0)  # transposed, it would have the loop compiled anew
@@ -111,7 +113,7 @@ def yielding_of(
     turns = np.outer(ring.apart, share) - ring.back[:, None]
     at = (ring.cos_face + 1j * ring.sin_face)[:, None] * np.exp(1j * turns)
     return Yielding(
-        True, first, step, table, values, half * x, half * w, depth_at(bearing, half * x),
+        True, first, step, table, values, growth, half * x, half * w, depth_at(bearing, half * x),
         share, part, at.real.copy(), at.imag.copy(), held & np.roll(held, -1, axis=1),
         contact.asperities.scale * bearing.radius**2,
     )  # fmt: skip

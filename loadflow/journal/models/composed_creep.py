@@ -51,8 +51,8 @@ class Creep:
     ----------
     model : ComposedFilm
         The film.
-    force, line : ndarray (1, 2), (1, 4)
-        Load, N, and how the shaft lies.
+    loads, line : ndarray (1, 4)
+        Force, N, and moment over the shaft radius; how the shaft lies.
     control : Limits
         Tolerance, and the Newton steps of a solution.
     warmth : Warmth
@@ -69,14 +69,14 @@ class Creep:
     def __init__(
         self,
         model: ComposedFilm,
-        force: Array,
+        loads: Array,
         line: Array,
         control: Limits,
         warmth: Warmth,
         states: Array,
     ) -> None:
-        self.model, self.force, self.line, self.warmth = model, force, line, warmth
-        self.load, self.loads, self.states = force[0], model.loads(force), states
+        self.model, self.loads, self.line, self.warmth = model, loads, line, warmth
+        self.load, self.states = loads[0, :2], states
         self.tolerance, self.most = control.tolerance, control.max_iterations
         self.spent = self.last = 0
 
@@ -205,7 +205,7 @@ class Creep:
 
     def _estimate(self, speed: float) -> Array:
         """Place (4,) by closed forms."""
-        return self.model.estimates(self.force, np.array([speed]), self.line)[0]
+        return self.model.estimates(self.loads[:, :2], np.array([speed]), self.line)[0]
 
     def _row(self, place: Array, speed: float, most: int, size: int) -> Array:
         """Results after at most `most` Newton steps; of the `place`, `size` moves."""

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
 from loadflow.journal.models.composed_modes import Modes, ModesWork, make_modes_work
 from loadflow.journal.models.composed_supply import Border, Feeding, Held, make_border
+from loadflow.journal.models.composed_thick import Thickening
 from loadflow.journal.models.composed_uneven import Uneven
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes
@@ -147,6 +148,8 @@ class Yielding(NamedTuple):
         Gap with it, its derivative, asperity pressure over K E*, its derivative.
     values : array (g, m)
         Pressure at places across from that at the points.
+    growth : array (g, l)
+        What a shell that gives way all over opens there, from that at all points.
     z, weights, depth : array (g,)
         These places, shaft radii, their share of the whole width, shaft radii, and what a relief
         widens the bore there, clearances.
@@ -165,6 +168,7 @@ class Yielding(NamedTuple):
     step: float
     table: Array
     values: Array
+    growth: Array
     z: Array
     weights: Array
     depth: Array
@@ -179,8 +183,8 @@ class Yielding(NamedTuple):
 _NONE = np.zeros(1)
 _NONE_AROUND = np.zeros((1, 1))
 RIGID = Yielding(
-    False, 0.0, 1.0, np.zeros((4, 2)), _NONE_AROUND, _NONE, _NONE, _NONE, _NONE, _NONE,
-    _NONE_AROUND, _NONE_AROUND, np.zeros((1, 1), bool), 0.0,
+    False, 0.0, 1.0, np.zeros((4, 2)), _NONE_AROUND, _NONE_AROUND, _NONE, _NONE, _NONE, _NONE,
+    _NONE, _NONE_AROUND, _NONE_AROUND, np.zeros((1, 1), bool), 0.0,
 )  # fmt: skip
 
 
@@ -236,6 +240,8 @@ class Composed(NamedTuple):
         What feeds those whose pressure is unknown.
     uneven : Uneven
         Viscosity of the points.
+    thickening : Thickening
+        What their pressure makes of it.
     """
 
     ring: Ring
@@ -250,6 +256,7 @@ class Composed(NamedTuple):
     held: Held
     feeding: Feeding
     uneven: Uneven
+    thickening: Thickening
 
 
 class ShelledFilm(Composed):
@@ -257,7 +264,7 @@ class ShelledFilm(Composed):
 
 
 class SmoothFilm(Composed):
-    """One of smooth surfaces, of laminar flow, without a supply: loops leave the rest out."""
+    """One of smooth surfaces, laminar flow, one viscosity and no supply: no loop has more."""
 
 
 class ComposedWork(NamedTuple):
@@ -327,6 +334,8 @@ class ComposedWork(NamedTuple):
         Shear of the points at the film's one viscosity, where `Uneven.on`.
     modes : ModesWork
         Of a shell that gives way all over.
+    thick : array (2, nx, L)
+        Pressure of the points, Pa, and their viscosity over that without; of `Thickening`.
     """
 
     u: Array
@@ -360,6 +369,7 @@ class ComposedWork(NamedTuple):
     border: Border
     sheared: Array
     modes: ModesWork
+    thick: Array
 
 
 def make_work(
@@ -399,5 +409,6 @@ def make_work(
         fed=np.zeros(feeding.slots.size),
         border=make_border(free),
         sheared=np.zeros(shape),
-        modes=make_modes_work(modes, shape),
+        modes=make_modes_work(modes, shape, points),
+        thick=np.ones((2, *shape)),
     )

@@ -44,6 +44,7 @@ from loadflow.journal.models.composed_supply import (
     put_in_grooves,
     supplied,
 )
+from loadflow.journal.models.composed_thick import thickening_of
 from loadflow.journal.models.composed_uneven import EVEN, Thickness
 from loadflow.journal.models.ring import estimates, lobed, ring_of, units_of
 from loadflow.journal.models.width_modes import (
@@ -348,17 +349,18 @@ def build(
     places = _places(bearing, nodes.z, half, whole)
     (give, modes), uneven = shell_of(bearing, options, ring, nodes, whole), EVEN
     grows = viscosity is not None and viscosity.growth is not None
-    yielding = yielding_of(bearing, options, give, whole, nodes.slopes.shape[1], ring, grows)
+    yielding = yielding_of(bearing, options, give, whole, nodes, ring, grows)
     if viscosity is not None:
         uneven = viscosity.at(nodes.z, yielding.z, ring.back, ring.width)
         places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
         yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
+    thickening = thickening_of(options.liquid, units.p_edge)
     effects = options.contact, options.turbulence, options.supply
-    smooth = SmoothFilm if effects == (None, None, None) else Composed
+    smooth = SmoothFilm if effects == (None, None, None) and not thickening.on else Composed
     film = (ShelledFilm if modes.on else smooth)(
         ring, nodes, places, lanes_of(nodes, places.depth), give, modes,
         rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
-        feeding, uneven,
+        feeding, uneven, thickening,
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, feeding, modes)
     return ComposedFilm(bearing, options, line, units, film, work)

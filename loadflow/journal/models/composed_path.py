@@ -205,7 +205,7 @@ class March:
         """Whether the first film is found from faster or standing ones; moves `place`."""
         model, drive = self.drive.film(level), self.drive
         limits = replace(drive.control, max_iterations=most)
-        one = drive.force[:1], self.lines[:1]
+        one = self.loads[:1], self.lines[:1]
         creep = Creep(model, *one, limits, self.warmth, self.states[:1])
         for found in creep.places(float(drive.speed[0])):
             place[:] = found

@@ -21,6 +21,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_gap_kernels import MEAN, PLANES
 from loadflow.journal.models._composed_loops import solve
+from loadflow.journal.models._thickening_kernels import PRESSURE
 from loadflow.journal.models.composed import finer_around
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_model import (
@@ -170,7 +171,8 @@ class Positions:
         found = row[at.CONVERGED] > 0.0 and not falls_dry(model.units, row[at.RESULTS :])
         found = bool(found and (not self.options.may_grade or model.resolves(place)))
         force = work.load[:2] + work.touch[0, :2]
-        film = work.u.copy(), work.state[P].copy()
+        pressure = work.thick[PRESSURE] if model.film.thickening.on else work.state[P]
+        film = work.u.copy(), pressure.copy()
         judged = Judged(ring, model.film.nodes, model.film.held.on, 1)
         model.judge(judged, 0, float(self.speed[n]))
         errors = held_errors(judged.left(), force[None])[0]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,6 +19,7 @@ from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
 from loadflow.journal.models.composed_supply import falls_dry
+from loadflow.journal.models.composed_thick import less_thickening, thickening_of
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
@@ -29,6 +30,7 @@ Array = NDArray[np.float64]
 
 _AT_REST = np.zeros(1)  # one time
 _NO_SLOPES = np.zeros((2, 0, 0))
+_THICKER, _LEAST_THICKER = 0.25, 1.0 / 64  # steps of the coefficient of a liquid that thickens
 _MISSED = 0.6  # of the load where the shaft touches: above 0.46 the grid had a film in no draw
 
 
@@ -197,6 +199,7 @@ class _Loads:
         self, model: ComposedFilm, force: Array, speed: Array, lines: Array, control: Limits
     ) -> None:
         self.model, self.force, self.speed, self.lines = model, force, speed, lines
+        self.given = force, speed, lines, control
         self.control, self.loads = control, model.loads(force)
         self.places = model.estimates(force, speed, lines)
 
@@ -234,9 +237,10 @@ class _Loads:
             work.u[:] = model.cold()  # a film that has run away may leave its shaft near the answer
             row = self.solve(place, n, size=0)
             yield Start(place, spent=int(row[at.ITERATIONS]))
+        spent = (yield from self._thickening(n)) if model.film.thickening.on else 0
         if last is not None and model.film.give > 0.0 and not near:
             yield self._after(n, last, rows)
-        spent = (yield from self._creeping(n)) if model.film.give > 0.0 else 0
+        spent += (yield from self._creeping(n)) if model.film.give > 0.0 else 0
         for share in OFF_THE_BORE:
             work.u[:] = model.cold()
             place = places[n].copy()
@@ -251,6 +255,33 @@ class _Loads:
         tilt = (rows[last, :4] if self.model.size == 4 else self.places[n])[2:]
         return Start(np.append(rows[last, :2], tilt))
 
+    def _thickening(self, n: int) -> Generator[Start, None, int]:
+        """Where load `n` may start by way of liquids that thicken less; sets the unknowns.
+
+        Returns the steps of a way that led nowhere.
+        """
+        model, work, place, spent = self.model, self.model.work, self.places[n].copy(), 0
+        work.u[:] = model.cold()
+        share, step, held = 0.0, _THICKER, (work.u.copy(), place.copy())
+        while step >= _LEAST_THICKER:
+            liquid = less_thickening(model.options.liquid, share)
+            film = model.film._replace(thickening=thickening_of(liquid, model.units.p_edge))
+            less = _Loads(replace(model, film=film), *self.given)
+            row = less.solve(place, n)
+            spent += int(row[at.ITERATIONS])
+            if row[at.CONVERGED] > 0.0 and share == 1.0:
+                yield Start(place, spent=spent)
+                return 0
+            if row[at.CONVERGED] > 0.0:
+                reached, held = share, (work.u.copy(), place.copy())
+            elif share == 0.0:
+                break
+            else:
+                step *= 0.5
+                work.u[:], place[:] = held[0], held[1]
+            share = min(reached + step, 1.0)
+        return spent
+
     def _near(self, n: int, last: int, row: Array) -> bool:
         """Whether the place of load `n` is near that of the `last` one, which has a `row`."""
         model, places = self.model, self.places
@@ -264,7 +295,7 @@ class _Loads:
 
         Returns the steps of ways that led nowhere.
         """
-        one, told = (self.force[n : n + 1], self.lines[n : n + 1]), 0
+        one, told = (self.loads[n : n + 1], self.lines[n : n + 1]), 0
         creep = Creep(self.model, *one, self.control, COLD, standing_states(1))
         for place in creep.places(float(self.speed[n])):
             yield Start(place, spent=creep.spent - told)

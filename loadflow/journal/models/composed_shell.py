@@ -71,9 +71,16 @@ def shell_of(
     for n, beside in enumerate(nodes.joints):  # of no width, in the gap of its inner point
         shares[inner + n] = shares[beside]
     pressing = shares[:inner] * nodes.weights[:inner, None] / np.diff(z_edges)
-    shapes = split.shapes @ shares.T / bearing.clearance
+    shapes, rubbed = (
+        split.shapes @ shares.T / bearing.clearance,
+        np.zeros((0, *split.shapes.shape[1:2], nodes.z.size)),
+    )
+    if options.contact is not None:
+        areas = np.outer(ring.width, np.diff(z_edges)) * bearing.radius**2
+        rubbed = (split.pressed / areas) @ shares.T / (1.0 if whole else 2.0)
     return split.local / bearing.clearance, Modes(
-        True, _rows(shapes, nodes.z.size), _rows(split.pressed @ pressing.T, nodes.z.size)
+        True,
+        *(_rows(part, nodes.z.size) for part in (shapes, split.pressed @ pressing.T, rubbed)),
     )
 
 

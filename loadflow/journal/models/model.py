@@ -193,8 +193,6 @@ def _pairs(
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(verb, film, bearing)
     if film.rung == "reduced" and film.shell is not None and not film.shell.local:
-        words = 'None on rung = "reduced" in a shell that gives way all over; "grid" has both'
-        yield "contact", film.contact, True, words
         cells = 'one that is known on every grid, in a shaped bore on rung = "reduced"'
         apart = bool(bearing.shape.segments) and not film.shell.any_grid
         yield "shell", film.shell, apart, cells

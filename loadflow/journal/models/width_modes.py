@@ -297,21 +297,35 @@ def at_places(points: int, whole: bool, places: Array) -> Array:
     return np.ascontiguousarray(values[:, inner] + values[:, 2 * points + 1 - inner])
 
 
-def between_stretches(marks: tuple[float, ...], here: Nodes, there: Nodes, whole: bool) -> Array:
-    """Values at the inner points `there` from those `here`, both of `stretched_width`."""
-    half, inner, others = here.z[-1], here.slopes.shape[1], there.slopes.shape[1]
-    own, places = here.z[:inner] / half, there.z[:others] / half
+def on_places(nodes: Nodes, marks: tuple[float, ...], whole: bool, places: Array) -> Array:
+    """Values at `places`, −1 … 1 (0 … 1 of a half), from those at all points, (places, l).
+
+    Between `marks`, as of `stretched_width`, they are polynomials of their own; the points of no
+    width give nothing.
+    """
+    half, inner, ends = nodes.z[-1], nodes.slopes.shape[1], nodes.ends.size
+    own = nodes.z[:inner] / half
     sides = own if whole else np.append(-own[::-1], own)
-    zeta, values = np.concatenate([[-1.0], sides, [1.0]]), np.zeros((others, sides.size + 2))
+    zeta, values = np.concatenate([[-1.0], sides, [1.0]]), np.zeros((places.size, sides.size + 2))
     edges = np.array([-1.0, *(-mark for mark in reversed(marks)), *marks, 1.0])
     for low, high in zip(edges[:-1] - _ON, edges[1:] + _ON):
         within = np.flatnonzero((zeta >= low) & (zeta <= high))
         to = np.flatnonzero((places >= low) & (places <= high))
         values[np.ix_(to, within)] = _interpolation(zeta[within], places[to])
-    values = values[:, 1:-1]
+    told = np.zeros((places.size, nodes.z.size))
     if whole:
-        return np.ascontiguousarray(values)
-    return np.ascontiguousarray(values[:, inner:] + values[:, inner - 1 :: -1])
+        told[:, :inner], told[:, -ends:] = values[:, 1:-1], values[:, [0, -1]]
+    else:
+        told[:, :inner] = values[:, inner + 1 : -1] + values[:, inner:0:-1]
+        told[:, -1] = values[:, -1] + values[:, 0]
+    return told
+
+
+def between_stretches(marks: tuple[float, ...], here: Nodes, there: Nodes, whole: bool) -> Array:
+    """Values at the inner points `there` from those `here`, both of `stretched_width`."""
+    places = there.z[: there.slopes.shape[1]] / there.z[-1]
+    told = on_places(here, marks, whole, places)
+    return np.ascontiguousarray(told[:, : here.slopes.shape[1]])
 
 
 @lru_cache(maxsize=8)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 
 if TYPE_CHECKING:
@@ -63,6 +64,7 @@ def solve_in_load_steps(
     force: Array,
     position: Array,
     tolerance: float,
+    effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """As `solve_equilibrium`, from a light load on: for shells that the load itself must open."""
@@ -70,11 +72,12 @@ def solve_in_load_steps(
     u, place, state = film.start(), position.copy(), no_film(film)
     done, step, spent, left, closed = 0.0, _FIRST_LOAD, 0, math.inf, 0
     most = film.newton_steps(_STEPS_EACH)
-    while step >= _LEAST_LOAD and spent < _STEPS * most:
+    while step >= _LEAST_LOAD and spent < _STEPS * most and not effort.over:
         share = min(1.0, done + step)
         if done == 0.0:
             place[free] = share * position[free]
         state = solve_equilibrium(film, share * force, u, place, tolerance, most, free=free)
+        effort.take(film, state.iterations)
         spent += state.iterations
         if not state.converged:
             step *= 0.5
@@ -97,15 +100,17 @@ def solve_by_stiffness(
     force: Array,
     position: Array,
     tolerance: float,
+    effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """As `solve_equilibrium`, from a rigid shell on, whose compliance grows to what it is."""
     film.relax(share=0.0)
     most = film.newton_steps(_STEPS_EACH)
     state = solve_equilibrium(film, force, film.start(), position, tolerance, 2 * most, free=free)
+    effort.take(film, state.iterations)
     spent = state.iterations
     if not state.converged:
-        state = solve_from_held(film, force, position, tolerance, 2 * most, free)
+        state = solve_from_held(film, force, position, tolerance, 2 * most, effort, free)
         spent += state.iterations
     share, step, left, closed = 0.0, _FIRST_SHARE, film.clearance_left(state.position), 0
     while state.converged and step >= _LEAST_SHARE * max(share, _FIRST_SHARE):
@@ -113,6 +118,7 @@ def solve_by_stiffness(
         film.relax(share=at)
         start = (state.u, state.position)
         trial = solve_equilibrium(film, force, *start, tolerance, most, free=free)
+        effort.take(film, trial.iterations)
         spent += trial.iterations
         if trial.converged:
             if at == 1.0:
@@ -124,7 +130,7 @@ def solve_by_stiffness(
             closed = closed + 1 if film.clearance_left(trial.position) <= 0.0 else 0
         if closed >= _CLOSED and left < _CLOSING:  # the shell meets the shaft: show where
             return replace(trial, iterations=spent, residual=1.0 - share)
-        if spent > _STEPS * most:
+        if spent > _STEPS * most or effort.over:
             break
     if state.converged:  # show the gap that is left, in the shell that it was found in
         film.relax(share=share)
@@ -137,24 +143,26 @@ def solve_elastic_in_steps(
     force: Array,
     position: Array,
     tolerance: float,
+    effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
 
-    Where asperities touch, the second comes first: it takes a third of the time.
+    Where asperities touch, the second comes first: it takes a third of the time. Both end with the
+    `effort`.
     """
-    asked, spent = (film, force, position, tolerance, free), 0
+    asked, spent = (film, force, position, tolerance, effort, free), 0
     by_shell: Solution | None = None
     if film.contact is not None:
         by_shell = solve_by_stiffness(*asked)
         spent += by_shell.iterations
-        if by_shell.converged:
+        if by_shell.converged or effort.over:
             return by_shell
     by_load = solve_in_load_steps(*asked)
     spent += by_load.iterations
     if by_load.converged or film.clearance_left(by_load.position) <= APART:
         return replace(by_load, iterations=spent)
-    if by_shell is None:
+    if by_shell is None and not effort.over:
         by_shell = solve_by_stiffness(*asked)
         spent += by_shell.iterations
         if by_shell.converged or by_shell.residual < by_load.residual:
@@ -170,17 +178,20 @@ def solve_from_held(
     position: Array,
     tolerance: float,
     max_iterations: int,
+    effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
     shortest: float = _SHORTEST,
 ) -> Solution:
     """As `solve_equilibrium`, from the load that the film carries at `position` held.
 
     That load is known as soon as the film is solved there, whatever it is; from it the load goes
-    straight to `force`, in steps as long as Newton's method follows, down to the `shortest` share.
+    straight to `force`, in steps as long as Newton's method follows, down to the `shortest` share,
+    while the `effort` lasts.
     """
     state = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
     if film.contact is not None or film.thickening is not None:
         state = _eased(film, force, state, tolerance, max_iterations, free)
+    effort.take(film, state.iterations)
     if not state.converged:
         return state
     first, spent, share, stride = state.linear.load, state.iterations, 0.0, _STRIDE
@@ -188,12 +199,13 @@ def solve_from_held(
     trial = state
     lightest = math.hypot(*first[free]) / film.load_scale(force)
     shortest *= min(1.0, max(lightest, _SHORTEST))
-    while stride >= shortest and spent < _BUDGET * max_iterations:
+    while stride >= shortest and spent < _BUDGET * max_iterations and not effort.over:
         at = min(1.0, share + stride)
         load = force + (1.0 - at) * (first - force)
         steps = max_iterations if at == 1.0 else short
         start = (state.u, state.position)
         trial = solve_equilibrium(film, load, *start, tolerance, steps, free=free)
+        effort.take(film, trial.iterations)
         spent += trial.iterations
         if not trial.converged:
             stride *= 0.4

@@ -24,6 +24,7 @@ STARVED = (
     "the supply is starved, a groove would fall below the cavitation pressure: MassConserving and "
     "GasMixture follow a groove that is not full"
 )
+MORE_STEPS = "a larger control.max_iterations allows more"
 AT_REST = "without rotation and squeeze the film carries no load"
 _THICK = 100.0  # viscosity under pressure over that without, from which it is told
 _NEAREST = 0.01  # gap, in clearances, at which the lift of a supply is stated
@@ -111,6 +112,8 @@ def _unsolved(
     if film.clearance_left(position) <= APART:
         return f"the shaft touches the elastic shell, {place}"
     reached = unresolved(solution.residual, solution.rounding, solution.iterations)
+    if solution.given_up:
+        reached += f", all that a search may take ({MORE_STEPS})"
     found = f"{what}; {reached}, at ε = {math.hypot(*position[:2]):.6g}"
     if solution.lost.size:
         x, y = cast("ShapedGap", gap).pivots[solution.lost[0] - gap.shaft]

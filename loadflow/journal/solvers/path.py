@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.linearised import Linear, SingularFilm
-from loadflow.journal.solvers.load_stepping import meets
-from loadflow.journal.solvers.newton import Solution, solve_equilibrium
+from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.load_stepping import has_touched, meets
+from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 
 if TYPE_CHECKING:
     from loadflow.journal.film.gap import Gap
@@ -144,6 +145,7 @@ def solve_along_path(
     start: Solution,
     tolerance: float,
     max_iterations: int,
+    effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution:
     """Equilibrium under `force` on the path from the load that a film carries where it is held.
@@ -158,6 +160,8 @@ def solve_along_path(
         Film at a given position.
     tolerance, max_iterations
         Of the equilibrium itself.
+    effort : Effort
+        What the path may take.
     free : slice or array of int
         Degrees of freedom that move.
 
@@ -171,9 +175,11 @@ def solve_along_path(
     linear = film.linearise(start.u, start.position, 0.0 * start.position)
     first = linear.load[moving]
     path = _Path(film, first, force[moving] - first, moving)
-    stride, most = _FIRST, 0.0
+    stride, most, most_steps = _FIRST, 0.0, effort.steps(film)
     point = path.point(start.u.copy(), start.position, 0.0, None)
     for _ in range(_STEPS):
+        if path.spent >= most_steps:
+            break
         try:
             found = path.after(point, stride)
         except SingularFilm:
@@ -189,12 +195,43 @@ def solve_along_path(
             answer = solve_equilibrium(film, force, *ends, tolerance, max_iterations, free=free)
             path.spent += answer.iterations
             if answer.converged:
+                effort.take(film, path.spent)
                 return replace(answer, iterations=path.spent)
         point = following
         if not math.isfinite(float(point.tangent.sum())) or meets(film, point.position):
             break
         most = max(most, point.share) if point.share < 1.0 else most
         stride = min(2.0 * stride, _LONGEST) if number < _FEW else stride
+    effort.take(film, path.spent)
     missing = (1.0 - most) * math.hypot(*path.change) / film.load_scale(force)
     ended = Solution(point.u, point.position, point.linear, False, path.spent, missing)
     return replace(ended, free=free)
+
+
+def solve_beyond_fold(
+    film: DiscreteFilm,
+    force: Array,
+    estimate: Array,
+    tolerance: float,
+    max_iterations: int,
+    effort: Effort,
+    reached: Solution,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """Equilibrium beyond a fold of the load, or the end of the path at the shell.
+
+    It goes on where steps of the load have `reached`, or begins at the `estimate`, where they do;
+    what they have reached is what is left where the path neither finds a load nor ends.
+    """
+    still, limits = 0.0 * estimate, (tolerance, max_iterations)
+    for start in ((reached.u, reached.position), (film.start(), estimate)):
+        held = solve_film(film, *start, still, *limits)
+        effort.take(film, held.iterations)
+        if held.converged:
+            break
+    else:
+        return reached
+    found = solve_along_path(film, force, held, *limits, effort, free)
+    spent = reached.iterations + held.iterations + found.iterations
+    ended = found.converged or has_touched(film, found)
+    return replace(found if ended else reached, iterations=spent)

@@ -25,6 +25,7 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
@@ -38,7 +39,7 @@ from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
-from loadflow.journal.solvers.path import solve_along_path
+from loadflow.journal.solvers.path import solve_beyond_fold
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -48,6 +49,7 @@ _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FIRST = 2  # Newton steps of a film on pads before the shaft moves
 _MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
 _CROWDED = 2  # meshes that are tried beside the one asked for
+_KEPT = 0.6  # of the effort in an elastic shell, for other cells: on some there is no film at all
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
@@ -126,25 +128,28 @@ class Statics:
         last: Solution | None,
         control: Limits,
         meshes: int = _CROWDED,
+        effort: Effort | None = None,
     ) -> tuple[Statics, Solution]:
         """Equilibrium under load number `index`, and the film it was found on.
 
         Cells that do not resolve the gap are graded. Where the gap closes between the cells of a
         mesh fixed to the shell there may be no equilibrium on it, so that cells crowd there, on up
-        to `meshes` others.
+        to `meshes` others, as long as the `effort` lasts.
         """
-        refine = self.can_refine
-        solution = self.solve(index, load, omega, last, control, in_steps=not refine)
+        refine, effort = self.can_refine, effort or self._effort(control)
+        effort.kept = _KEPT * effort.left if self.film.elastic and meshes else 0.0
+        solution = self.solve(index, load, omega, last, control, not refine, effort)
+        effort.kept = 0.0
         resolved = self.suited(solution.position) is self
         if (solution.converged and resolved) or not self._carries(self._force(index, load)):
             return self, solution
         if refine:
             return self.finer.resolve(index, load, omega, None, control)
-        crowded = self._crowded(solution) if meshes else None
+        crowded = self._crowded(solution) if meshes and not effort.over else None
         if crowded is None:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
-        return crowded.resolve(index, load, omega, None, control, left)
+        return crowded.resolve(index, load, omega, None, control, left, effort)
 
     def _crowded(self, solution: Solution) -> Statics | None:
         """The film on cells that crowd where the gap of a `solution` closes; None: as before."""
@@ -184,13 +189,14 @@ class Statics:
         last: Solution | None,
         control: Limits,
         in_steps: bool = True,
+        effort: Effort | None = None,
     ) -> Solution:
         """Equilibrium under load number `index` on this mesh.
 
         From the `last` solution, if that is near, and from a first position; if `in_steps` also by
-        steps of the load.
+        steps of the load, as long as the `effort` lasts.
         """
-        film, gap = self.film, self.gap
+        film, gap, effort = self.film, self.gap, effort or self._effort(control)
         film.relax()
         film.set_speed(omega)
         force = self._force(index, load)
@@ -203,14 +209,17 @@ class Statics:
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits)
-        if not solution.converged and in_steps:
-            solution = self._in_steps(force, estimate, pads, limits)
-            fixed = not (film.elastic or gap.pads.size)
-            if fixed and not (solution.converged or has_touched(film, solution)):
-                solution = self._along_path(force, estimate, limits, pads, solution)
-            if fixed and not (solution.converged or has_touched(film, solution)):
-                solution = self._by_other_loads(force, estimate, limits) or solution
-        return self._checked(replace(solution, estimate=estimate))
+        effort.take(film, solution.iterations)
+        if in_steps and not (solution.converged or effort.over):
+            solution = self._in_steps(force, estimate, pads, limits, effort)
+            fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
+            if fixed and self._has_path and not _ended(film, solution, effort):
+                given = film, force, estimate, *limits, effort, solution, free
+                solution = solve_beyond_fold(*given)
+            if fixed and not _ended(film, solution, effort):
+                solution = self._by_other_loads(force, estimate, limits, effort) or solution
+        found = self._checked(replace(solution, estimate=estimate, iterations=effort.spent))
+        return replace(found, given_up=effort.over and not found.converged)
 
     def hold(
         self,
@@ -270,7 +279,8 @@ class Statics:
         film = self.film
         film.set_speed(omega)
         limits = control.tolerance, film.newton_steps(control.max_iterations)
-        return self._checked(solve_from_held(film, force, solution.position, *limits))
+        found = solve_from_held(film, force, solution.position, *limits, self._effort(control))
+        return self._checked(found)
 
     def message(self, solution: Solution, load: Array | None = None) -> str:
         """Why there is no answer for `load`, or at the position given, with numbers."""
@@ -329,12 +339,13 @@ class Statics:
         self, force: Array, estimate: Array, last: Solution | None, limits: tuple[float, int]
     ) -> tuple[Solution, Array, Rows]:
         """Newton from every start; with it the position and the pads that it ended at."""
-        film, gap = self.film, self.gap
+        film, gap, spent = self.film, self.gap, 0
         pads = gap.converging(estimate, film.speed)
         for round_ in range(_PAD_ROUNDS):
             free = self._free(self._on_pads(pads))
             for start in self._starts(force, estimate, last, free, pads, limits):
                 solution = solve_equilibrium(film, force, *start, *limits, free=free)
+                spent += solution.iterations
                 if solution.converged:
                     break
             tilting = gap.converging(solution.position, film.speed)
@@ -344,7 +355,7 @@ class Statics:
                 break
             estimate = np.append(solution.position[:2], estimate[2:])
             estimate, last, pads = gap.lifted(estimate, film.speed), None, tilting
-        return solution, estimate, pads
+        return replace(solution, iterations=spent), estimate, pads
 
     def _starts(
         self,
@@ -379,64 +390,51 @@ class Statics:
         if floating is not None and not afloat:
             yield floating.u, floating.position
 
-    def _along_path(
-        self,
-        force: Array,
-        estimate: Array,
-        limits: tuple[float, int],
-        pads: Rows,
-        reached: Solution,
-    ) -> Solution:
-        """Equilibrium beyond a fold of the load, or the end of the path at the shell.
-
-        It goes on where steps of the load have ended, or begins where they do.
-        """
-        film = self.film
-        if not self._has_path:
-            return reached
-        still = np.zeros(self.gap.size)
-        for start in ((reached.u, reached.position), (film.start(), estimate)):
-            held = solve_film(film, *start, still, *limits)
-            if held.converged:
-                break
-        else:
-            return reached
-        found = solve_along_path(film, force, held, *limits, free=self._free(pads))
-        spent = reached.iterations + held.iterations + found.iterations
-        ended = found.converged or has_touched(film, found)
-        return replace(found if ended else reached, iterations=spent)
-
     def _by_other_loads(
-        self, force: Array, estimate: Array, limits: tuple[float, int]
+        self, force: Array, estimate: Array, limits: tuple[float, int], effort: Effort
     ) -> Solution | None:
         """Equilibrium by way of other sizes of the load."""
 
         def newton(share: float, last: Solution | None) -> Solution:
             place = estimate if last is None else last.position
             before = None if last is None else replace(last, estimate=place)
-            return self._by_newton(share * force, place, before, limits)[0]
+            found = self._by_newton(share * force, place, before, limits)[0]
+            effort.take(self.film, found.iterations)
+            return found
 
-        return solve_from_other_loads(newton, limits[1])
+        return solve_from_other_loads(newton, limits[1], effort)
 
     def _in_steps(
-        self, force: Array, estimate: Array, pads: Rows, limits: tuple[float, int]
+        self, force: Array, estimate: Array, pads: Rows, limits: tuple[float, int], effort: Effort
     ) -> Solution:
         """Equilibrium where Newton finds none at once."""
         film, free = self.film, self._free(pads)
         if film.elastic:
-            return solve_elastic_in_steps(film, force, estimate, limits[0], free)
+            return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             on_pads = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
+            effort.take(film, on_pads.iterations)
             if on_pads.converged:
                 return on_pads
             self._on_pads(pads)
-            held = solve_from_held(film, force, estimate, *limits, free)
+            held = solve_from_held(film, force, estimate, *limits, effort, free)
             told = held.converged or has_touched(film, held) or not on_pads.lost.size
             return held if told else on_pads
         if self.gap.pads.size or not self._has_path:
-            return solve_from_held(film, force, estimate, *limits, free)
-        return solve_from_held(film, force, estimate, *limits, free, _LONG)  # the path goes on
+            return solve_from_held(film, force, estimate, *limits, effort, free)
+        return solve_from_held(
+            film, force, estimate, *limits, effort, free, _LONG
+        )  # a path goes on
+
+    def _effort(self, control: Limits) -> Effort:
+        """What the searches for one film may take."""
+        return Effort.of(self.film, self.film.newton_steps(control.max_iterations))
+
+
+def _ended(film: DiscreteFilm, solution: Solution, effort: Effort) -> bool:
+    """Whether a search has come to its end, or may go no farther."""
+    return solution.converged or effort.over or has_touched(film, solution)
 
 
 def _same(free: slice | Rows, other: slice | Rows) -> bool:

@@ -14,6 +14,14 @@
   const COLOURS = ["#1f5a94", "#d1612b", "#3d8b5f", "#8a4f9e", "#b08d1e", "#4b9fb5", "#666666"];
   const drawn = new Map(); // element → its plots
   const rounded = v => (v == null ? "–" : Number(v.toPrecision(5)).toString());
+  const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+  function decades(ticks) { // powers of ten are written; all ticks where there are few of these
+    const power = v => (v > 0 ? Math.round(Math.log10(v)) : NaN);
+    const whole = v => Math.abs(v / 10 ** power(v) - 1) < 1e-6;
+    const few = ticks.filter(v => v != null && whole(v)).length < 2;
+    const said = k => (k >= -2 && k <= 3 ? rounded(10 ** k) : "10" + [...String(k)].map(c => RAISED[c]).join(""));
+    return ticks.map(v => (v == null ? "" : whole(v) ? said(power(v)) : few ? rounded(v) : ""));
+  }
   uPlot.pxRatio = Math.max(2, devicePixelRatio); // sharp on paper
 
   function width(box, count) { return Math.max(240, Math.floor((box.clientWidth - 4) / count)); }
@@ -42,7 +50,7 @@
       scales: { x: { time: false, ...(data.points ? { range: (_, a, b) => [a - 0.04 * (b - a || 1), b + 0.04 * (b - a || 1)] } : {}) }, y: { distr: panel.log ? 3 : 1, ...(panel.level != null ? { range: (_, a, b) => reach(a, b, panel) } : {}) } },
       axes: [
         { show: true, label: last ? data.label : undefined, labelSize: 18, size: 30, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 } },
-        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 }, ...(panel.log ? {} : { values: (_, ticks) => ticks.map(rounded) }) },
+        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 }, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
       ],
       series: [{ label: data.points ? "of" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
       hooks: panel.level != null ? { draw: [level(panel.level)] } : {},

@@ -89,6 +89,11 @@ def main_bearings(arrangement: str) -> dict[str, RollingBearing]:
         Two spherical roller bearings; a cylindrical roller bearing before a double-row tapered one;
         a pair of tapered rows far apart, back-to-back and preloaded; one four-point ball bearing.
 
+    Returns
+    -------
+    dict
+        By place, its bearing.
+
     Raises
     ------
     InputError
@@ -156,6 +161,11 @@ def modified_spectrum_life(
         Oil, temperature and cleanliness.
     weight : array_like, shape (n,)
         Time that each step stands for, in any unit.
+
+    Returns
+    -------
+    SpectrumLife
+        Life, its factor, and how thin the film is.
 
     Examples
     --------

@@ -69,6 +69,11 @@ def ball_friction(
     options : FrictionOptions
         Lubricant, surfaces, churning, seals; ribs are not used.
 
+    Returns
+    -------
+    BearingFriction
+        Over the cases (...) and contacts (..., kind, ball, ring).
+
     Raises
     ------
     InputError

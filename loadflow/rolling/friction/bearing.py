@@ -2,24 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
+from loadflow.numerics.shown import Shown, in_words
+from loadflow.quantities import Quantity, load_cases
 from loadflow.rolling.friction.contact_films import ContactFilm, Ring
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.tribology import asperities, traction
 
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
 Array = NDArray[np.float64]
 RINGS: tuple[Ring, ...] = ("inner", "outer")
 
+_SHOWN = {
+    "speed": Quantity("ω", "rad/s", "speed of the inner ring over the outer"),
+    "power": Quantity("P", "W", "friction loss"),
+    "torque": Quantity("M", "N m", "friction torque"),
+    "least_film_parameter": Quantity("Λ", "1", "least film parameter of all contacts"),
+}
+_OF_CONTACTS = {
+    "film": (("row", "element", "ring"), "m", "central film thickness"),
+    "film_parameter": (("row", "element", "ring"), "1", "film parameter Λ"),
+    "asperity_share": (("row", "element", "ring"), "1", "share of the load on asperities"),
+    "traction_use": (
+        ("row", "element"),
+        "1",
+        "friction needed for ideal rolling over that there is",
+    ),
+    "sliding": (("row", "element"), "1", "mean sliding over rolling speed"),
+    "slip_power_density": (("row", "element"), "W/m^2", "power of sliding over contact area"),
+}
 
-@dataclass(frozen=True)
-class BearingFriction:
+
+@dataclass(frozen=True, repr=False)
+class BearingFriction(Shown):
     """Friction of a bearing; contacts over (..., row, element, ring), ring = inner, outer.
 
     Of ball bearings the axis of rows is that of their kinds of contact (row and diagonal).
@@ -84,6 +109,111 @@ class BearingFriction:
         turning = np.abs(self.speed)
         safe = np.where(turning > 0, turning, 1.0)
         return {name: np.asarray(p / safe) for name, p in self.losses.items()}
+
+    @property
+    def least_film_parameter(self) -> Array:
+        """Smallest Λ of all contacts, (...)."""
+        return np.asarray(self.film_parameter.min(axis=(-3, -2, -1)))
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of friction."""
+        return _SHOWN
+
+    def to_dataset(self) -> xr.Dataset:
+        """The result over ``case``, with units; of one load case without that dimension.
+
+        Returns
+        -------
+        xarray.Dataset
+            Speed, power and torque in all; power and torque over ``component``; film, Λ and shares
+            of the contacts over ``row``, ``element`` and ``ring``.
+
+        Examples
+        --------
+        >>> from loadflow.rolling import FrictionOptions, RollerBearing
+        >>> from loadflow.tribology import lubricant
+        >>> bearing = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06,
+        ...     pitch_diameter=0.5)
+        >>> state = bearing.equilibrium((1e5, 0.0, 0.0))
+        >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.0)
+        >>> found = state.friction([5.0, 10.0], options)
+        >>> data = found.to_dataset()
+        >>> data["torques"].dims, data["film"].dims
+        (('case', 'component'), ('case', 'row', 'element', 'ring'))
+        """
+        import xarray as xr
+
+        cases = np.shape(self.power)
+        lead = ("case",) if cases else ()
+
+        def flat(values: Array, inner: int) -> Array:
+            own = values.shape[values.ndim - inner :]
+            whole = np.broadcast_to(values, (*cases, *own))
+            return whole.reshape((*(-1,) * len(lead), *own))
+
+        told = {n: (lead, flat(np.asarray(getattr(self, n)), 0), q) for n, q in _SHOWN.items()}
+        data = {name: (dims, values, q.attributes) for name, (dims, values, q) in told.items()}
+        for name, parts, units, meaning in (
+            ("losses", self.losses, "W", "power of each component"),
+            ("torques", self.torques, "N m", "torque of each component"),
+        ):
+            rows = np.stack([flat(np.asarray(one), 0) for one in parts.values()], axis=-1)
+            data[name] = (*lead, "component"), rows, {"units": units, "long_name": meaning}
+        for name, (dims, units, meaning) in _OF_CONTACTS.items():
+            values = getattr(self, name)
+            if values is not None:
+                about = {"units": units, "long_name": meaning}
+                data[name] = (*lead, *dims), flat(values, len(dims)), about
+        return xr.Dataset(data, {"component": [*self.losses], "ring": [*RINGS]})
+
+    def plot(self) -> Figure:
+        """Draw torque by component and the least film parameter, over speed or load case.
+
+        Returns
+        -------
+        matplotlib.figure.Figure
+
+        Examples
+        --------
+        >>> from loadflow.rolling import FrictionOptions, RollerBearing
+        >>> from loadflow.tribology import lubricant
+        >>> bearing = RollerBearing(rollers=24, roller_diameter=0.04, roller_length=0.06,
+        ...     pitch_diameter=0.5)
+        >>> state = bearing.equilibrium((1e5, 0.0, 0.0))
+        >>> options = FrictionOptions(oil=lubricant("mineral-vg-320"), temperature=323.0)
+        >>> found = state.friction([5.0, 10.0], options)
+        >>> [axis.get_xlabel() for axis in found.plot().axes]
+        ['speed, 1/min', 'speed, 1/min']
+        """
+        from loadflow import plots
+
+        data = self.to_dataset()
+        data = data if "case" in data.dims else data.expand_dims("case")
+        several = np.unique(data["speed"]).size == data.sizes["case"]
+        data = data.sortby("speed") if several else data
+        at, label = np.arange(1.0, data.sizes["case"] + 1), "load case"
+        if several:
+            at, unit = plots.readable(data["speed"])
+            label = f"speed, {unit}"
+        drawing, (left, right) = plots.figure(1, 2, height=3.0)
+        for name in data["component"].values:
+            part = data["torques"].sel(component=name)
+            if np.any(part):
+                left.plot(at, part, "o-", ms=3, label=str(name))
+        left.plot(at, data["torque"], "o-", ms=3, color="0.3", label="all together")
+        left.set(xlabel=label, ylabel="friction torque, N m")
+        left.legend()
+        right.plot(at, data["least_film_parameter"], "o-", ms=3)
+        right.set(xlabel=label, ylabel="least film parameter Λ")
+        return drawing
+
+    def __repr__(self) -> str:
+        lines = [f"<{type(self).__name__} of {load_cases(int(np.size(self.power)))}>"]
+        for name, (_, units, meaning) in _SHOWN.items():
+            values = np.asarray(getattr(self, name))
+            span, unit = in_words(np.unique([values.min(), values.max()]), units)
+            lines.append(f"  {meaning:38s} {span.replace(', ', ' … ')} {unit}".rstrip())
+        return "\n".join(lines)
 
 
 class ContactFriction(NamedTuple):

@@ -48,6 +48,11 @@ def stribeck_torque(load: ArrayLike, pitch_diameter: float, friction: float) -> 
     friction : float
         μ, 0.001 … 0.003.
 
+    Returns
+    -------
+    ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import stribeck_torque
@@ -72,6 +77,11 @@ def palmgren_idle_torque(
         m.
     factor : float
         f₀ of type and lubrication (`PALMGREN_F0`).
+
+    Returns
+    -------
+    ndarray
+        N m.
 
     Examples
     --------
@@ -107,6 +117,11 @@ def palmgren_load_torque(
         C₀, N; needed unless c = 0.
     exponent : float
         c.
+
+    Returns
+    -------
+    ndarray
+        N m.
 
     Raises
     ------
@@ -145,6 +160,11 @@ def palmgren_torque(
         Magnitudes of the loads, N.
     speed, viscosity, pitch_diameter
         As `palmgren_idle_torque`.
+
+    Returns
+    -------
+    ndarray
+        N m.
 
     Raises
     ------

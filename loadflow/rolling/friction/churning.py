@@ -66,6 +66,11 @@ def fit_churning(
     viscosity, density : array_like
         Pa s and kg/m³ at each point.
 
+    Returns
+    -------
+    Churning
+        The constants.
+
     Raises
     ------
     InputError

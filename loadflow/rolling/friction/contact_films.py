@@ -46,6 +46,20 @@ class ContactFilm(NamedTuple):
 def raceway_radius(roller_diameter: float, gamma: float, ring: Ring) -> float:
     """Reduced radius ρ (1 ∓ γ) of rolling element and raceway, m, (5.66), (5.67).
 
+    Parameters
+    ----------
+    roller_diameter : float
+        m.
+    gamma : float
+        γ = D_w cos α/D_pw.
+    ring : {"inner", "outer"}
+        Which raceway: 1 - γ at the inner, 1 + γ at the outer one.
+
+    Returns
+    -------
+    float
+        m.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import raceway_radius
@@ -79,6 +93,11 @@ def line_film(
         Mean surface speed u ≥ 0, m/s; broadcasts with `force`.
     options : FrictionOptions
         Oil, temperature, film law, starvation.
+
+    Returns
+    -------
+    ContactFilm
+        Film, pressure and size of the contacts.
 
     Examples
     --------
@@ -119,6 +138,11 @@ def groove_film(
     force, mean_speed, options
         As `line_film`.
 
+    Returns
+    -------
+    ContactFilm
+        Film, pressure and size of the contacts.
+
     Examples
     --------
     >>> import numpy as np
@@ -155,6 +179,11 @@ def sphere_film(
         As `line_film`.
     radius : float
         Reduced radius, m.
+
+    Returns
+    -------
+    ndarray
+        m.
 
     Examples
     --------

@@ -44,6 +44,11 @@ def cage_force(
     rib : {"outer", "inner"}
         Ring with the ribs.
 
+    Returns
+    -------
+    float or ndarray
+        K, N.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import cage_force
@@ -89,6 +94,11 @@ def driving_moment(
     variant : {"physics", "printed"}
         See the module.
 
+    Returns
+    -------
+    float or ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import driving_moment
@@ -129,6 +139,11 @@ def rolling_loss(
     sliding : float
         μ'.
 
+    Returns
+    -------
+    float or ndarray
+        W.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import rolling_loss
@@ -156,6 +171,11 @@ def sliding_loss(
     variant : {"physics", "printed"}
         See the module.
 
+    Returns
+    -------
+    float or ndarray
+        W.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import sliding_loss
@@ -173,6 +193,24 @@ def pocket_loss(
     """Loss of roller and cage, μ' ρ |K| |ω_w|, W, (5.40), (5.41).
 
     Von Hollen prints μ'² for μ', which makes it 25 times too small.
+
+    Parameters
+    ----------
+    cage : float or ndarray
+        Force K between roller and cage, N.
+    spin : float or ndarray
+        Spin ω_w of the roller, rad/s.
+    radius : float
+        ρ, m.
+    sliding : float
+        Friction coefficient μ'.
+    variant : {"physics", "printed"}
+        See the module.
+
+    Returns
+    -------
+    float or ndarray
+        W.
 
     Examples
     --------

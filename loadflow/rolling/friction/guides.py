@@ -33,6 +33,11 @@ def cage_side_torque(
     outer_radius, inner_radius : float
         Of the cage, m.
 
+    Returns
+    -------
+    float or ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import cage_side_torque
@@ -47,6 +52,24 @@ def cage_inertia_force(
     cage_mass: float, rollers: int, roller_mass: float, crank_radius: float, speed: Value
 ) -> Value:
     """Inertia force of the cage of a crank-pin bearing with half its rollers, N, (4.72).
+
+    Parameters
+    ----------
+    cage_mass : float
+        kg.
+    rollers : int
+        Number of rollers.
+    roller_mass : float
+        Of one, kg.
+    crank_radius : float
+        m.
+    speed : float or ndarray
+        Of the crank, rad/s.
+
+    Returns
+    -------
+    float or ndarray
+        N.
 
     Examples
     --------
@@ -70,6 +93,11 @@ def thrust_washer_torque(
         Friction coefficient (steel on bronze 0.07).
     outer_radius, inner_radius : float
         m.
+
+    Returns
+    -------
+    float or ndarray
+        N m.
 
     Examples
     --------
@@ -104,6 +132,11 @@ def seal_torque(
         At the lip's temperature, Pa s.
     width_ratio : float
         Width of the lip over the sum of the roughnesses R_p.
+
+    Returns
+    -------
+    float or ndarray
+        N m.
 
     Examples
     --------

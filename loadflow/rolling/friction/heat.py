@@ -81,6 +81,11 @@ def balanced_temperature(
     model : callable
         `roller_friction`, or `ball_friction` for balls.
 
+    Returns
+    -------
+    HeatBalance
+        Temperature, K, friction at it, and the residual.
+
     Raises
     ------
     InputError

@@ -206,6 +206,11 @@ def drag_constants(
     variant : {"geometric", "thesis", "printed"}
         See the module.
 
+    Returns
+    -------
+    DragConstants
+        Of spin and orbit.
+
     Raises
     ------
     InputError
@@ -262,6 +267,11 @@ def coulomb_drag_constants(
         Friction coefficients μ of roller and raceway, μ' of roller and cage.
     driving : {"inner", "outer"}
         Ring that turns in the frame of the load; "outer" is von Hollen's crank-pin bearing.
+
+    Returns
+    -------
+    DragConstants
+        Of spin and orbit.
 
     Examples
     --------

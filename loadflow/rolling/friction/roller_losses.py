@@ -62,6 +62,11 @@ def roller_friction(
     options : FrictionOptions
         Lubricant, surfaces, ribs, churning, seals.
 
+    Returns
+    -------
+    BearingFriction
+        Over the cases (...) and contacts (..., row, roller, ring).
+
     Raises
     ------
     InputError

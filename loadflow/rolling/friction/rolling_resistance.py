@@ -45,6 +45,11 @@ def hysteresis_moment(load: Value, half_width: Value, loss: float) -> Value:
     loss : float
         Hysteresis loss factor α of the steel; of the order of 0.01.
 
+    Returns
+    -------
+    float or ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import hysteresis_moment
@@ -80,6 +85,11 @@ def elastic_force(
     modulus : float
         Reduced modulus E₀ = 2 E*, Pa.
 
+    Returns
+    -------
+    float or ndarray
+        N.
+
     Examples
     --------
     >>> from loadflow.rolling.friction import elastic_force
@@ -95,6 +105,22 @@ def rigid_force(load: Value, length: Value, speed: Value, viscosity: Value) -> V
     """Hydrodynamic rolling force between rigid cylinders, 2.080 l √(η u Q/l), N.
 
     Exact for an isoviscous film; the lighter the load, the nearer.
+
+    Parameters
+    ----------
+    load : float or ndarray
+        Contact load Q, N.
+    length : float or ndarray
+        Effective length l, m.
+    speed : float or ndarray
+        Mean surface speed u ≥ 0, m/s.
+    viscosity : float or ndarray
+        η at ambient pressure, Pa s.
+
+    Returns
+    -------
+    float or ndarray
+        N.
 
     Examples
     --------
@@ -118,6 +144,16 @@ def hydrodynamic_force(
 
     The smaller of `elastic_force` and `rigid_force`, rounded where they meet: the regression of
     the elastic film is far too large for rollers that hardly touch. Arguments as `elastic_force`.
+
+    Parameters
+    ----------
+    load, length, radius, speed, viscosity, pressure_viscosity, modulus
+        As `elastic_force`.
+
+    Returns
+    -------
+    float or ndarray
+        N.
 
     Examples
     --------
@@ -157,6 +193,11 @@ def hydrodynamic_torque(
         D d/(D + d), so that torque times speed is the power 2 u F.
     contact_angle : float
         Of both rings, rad.
+
+    Returns
+    -------
+    float or ndarray
+        N m.
 
     Examples
     --------

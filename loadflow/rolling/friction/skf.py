@@ -112,6 +112,11 @@ def skf_constants(kind: CatalogueKind, series: str, axial_factor: float = 0.0) -
     axial_factor : float
         Y of a tapered bearing; each has its own, and others have none.
 
+    Returns
+    -------
+    SkfConstants
+        Constants of the series.
+
     Raises
     ------
     InputError
@@ -138,6 +143,16 @@ def skf_constants(kind: CatalogueKind, series: str, axial_factor: float = 0.0) -
 
 def skf_series(kind: CatalogueKind) -> list[str]:
     """Names of the series of a type that SKF's table has.
+
+    Parameters
+    ----------
+    kind : str
+        Type of bearing, as in `skf_constants`.
+
+    Returns
+    -------
+    list of str
+        The names.
 
     Examples
     --------
@@ -186,6 +201,11 @@ def skf_torque(
     static_capacity : float, optional
         C₀, N; of deep groove bearings, whose contact angle follows from F_a/C₀. SKF's sliding
         torque of them jumps where there is no thrust; below 1e-9 F_r there is none.
+
+    Returns
+    -------
+    tuple of ndarray
+        Rolling and sliding torque, N m.
 
     Raises
     ------
@@ -325,6 +345,11 @@ def skf_drag_torque(
         bearing counts as under oil in what depends on the angle in the bath.
     width : float, optional
         B of the inner ring, m; of rollers.
+
+    Returns
+    -------
+    ndarray
+        N m.
 
     Warns
     -----

@@ -39,6 +39,11 @@ def friction_torque_loads(
     idle : float
         Torque M_R0 without load, N m.
 
+    Returns
+    -------
+    ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling import friction_torque_loads
@@ -54,6 +59,20 @@ def friction_torque_components(
     force: Array, moment: Array, pitch_diameter: float, *, friction: float, idle: float
 ) -> Array:
     """`friction_torque_loads` of the force (..., 3) and moment (..., 2) of a result.
+
+    Parameters
+    ----------
+    force : ndarray (..., 3)
+        N.
+    moment : ndarray (..., 2)
+        N m.
+    pitch_diameter, friction, idle : float
+        As `friction_torque_loads`.
+
+    Returns
+    -------
+    ndarray (...)
+        N m.
 
     Examples
     --------
@@ -85,6 +104,11 @@ def friction_torque_forces(
     idle : float
         Torque M_R0 without load and without preload (which is in `force_sum`), N m.
 
+    Returns
+    -------
+    ndarray
+        N m.
+
     Examples
     --------
     >>> from loadflow.rolling import friction_torque_forces
@@ -105,6 +129,11 @@ def friction_factor(
         Measured friction torque, N m.
     force_sum, pitch_diameter, idle
         See `friction_torque_forces`.
+
+    Returns
+    -------
+    ndarray
+        μ.
 
     Examples
     --------
@@ -132,6 +161,11 @@ def friction_torque_equivalent(
         Factor μ; 0.0024 of four-point bearings.
     idle : float
         Torque without load, N m.
+
+    Returns
+    -------
+    ndarray
+        N m.
 
     Examples
     --------

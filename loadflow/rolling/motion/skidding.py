@@ -114,6 +114,11 @@ def roller_slip(
     down, gravity : float
         Direction of gravity, angle from x toward y, rad, and its size, m/s².
 
+    Returns
+    -------
+    BearingSlip
+        Motion of the rollers, and friction with what slip adds.
+
     Raises
     ------
     InputError

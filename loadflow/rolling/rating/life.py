@@ -63,6 +63,11 @@ def spectrum_load(
     axis : int or tuple of int, optional
         Axes to sum over; all by default.
 
+    Returns
+    -------
+    ndarray
+        N.
+
     Raises
     ------
     InputError

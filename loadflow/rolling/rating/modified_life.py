@@ -172,6 +172,11 @@ def life_factor(
     limit : float
         Largest factor allowed, up to 50; IEC 61400-4 allows 3.8 in gearboxes.
 
+    Returns
+    -------
+    ndarray
+        a_ISO.
+
     Raises
     ------
     InputError
@@ -286,6 +291,11 @@ def life_modification(
     limit : float
         See `life_factor`.
 
+    Returns
+    -------
+    LifeModification
+        Factor a_ISO with κ, e_C, C_u and the limits that act.
+
     Raises
     ------
     InputError
@@ -333,6 +343,11 @@ def modified_life(
     **work
         The further arguments of `life_modification`, which also tells κ and which limits act.
 
+    Returns
+    -------
+    ndarray
+        L_nm.
+
     Raises
     ------
     InputError
@@ -363,6 +378,11 @@ def system_life(lives: ArrayLike, exponent: float = WEIBULL["roller"], axis: int
         Weibull slope e: 10/9 of balls, 9/8 of rollers (`WEIBULL`), 1.5 in IEC 61400-4.
     axis : int
         Axis of the parts.
+
+    Returns
+    -------
+    ndarray
+        In the unit of `lives`.
 
     Raises
     ------

@@ -115,6 +115,11 @@ def verdicts(
     life_limit, static_limit : float
         Smallest of both allowed.
 
+    Yields
+    ------
+    Verdict
+        Value, limit, and whether it holds.
+
     Examples
     --------
     >>> from loadflow.rolling.rating.static import verdicts

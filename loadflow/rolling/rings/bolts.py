@@ -262,6 +262,11 @@ def bolt_loads(result: ContactResult[RollingGeometry], ring: Raceway) -> list[Bo
     ring : {"inner", "outer"}
         Which ring.
 
+    Returns
+    -------
+    list of BoltLoads
+        One for each circle.
+
     Raises
     ------
     InputError

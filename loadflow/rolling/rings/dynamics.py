@@ -68,6 +68,11 @@ def natural_frequencies(ring: SolidSection, harmonic: int, count: int = 4) -> Ar
     count : int
         How many.
 
+    Returns
+    -------
+    ndarray (count,)
+        rad/s, rising.
+
     Raises
     ------
     InputError
@@ -104,6 +109,11 @@ def craig_bampton(ring: FiniteElementRing, points: PatchPoints, fixed_modes: int
         Its patches, equally spaced; the first ball at azimuth 0 of the fixed frame.
     fixed_modes : int
         Modes with held patches, those of lowest frequency of all waves that the balls tell apart.
+
+    Returns
+    -------
+    RingMotion
+        Masses and stiffness of the reduced ring.
 
     Raises
     ------

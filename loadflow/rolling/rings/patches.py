@@ -54,6 +54,11 @@ def patch_points(
         Whether a patch turns with its section (its groove centre is then the point that counts) or
         only shifts with its master point.
 
+    Returns
+    -------
+    PatchPoints
+        Places and directions.
+
     Examples
     --------
     >>> import numpy as np

@@ -240,6 +240,20 @@ class Support:
 def legs(count: int, width: float, first: float = 0.0) -> tuple[tuple[float, float], ...]:
     """Sectors of `count` equally spaced legs, each `width` rad wide, the first centred at `first`.
 
+    Parameters
+    ----------
+    count : int
+        Legs around the ring.
+    width : float
+        Of each, rad.
+    first : float
+        Middle of the first, rad.
+
+    Returns
+    -------
+    tuple of (float, float)
+        Middle and width of each, rad.
+
     Raises
     ------
     InputError

@@ -8,6 +8,7 @@ way there depends on damping, which Ritzer gives no value for.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Annotated
@@ -18,6 +19,8 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.fields import check_fields
+from loadflow.numerics.shown import Shown, in_words
+from loadflow.quantities import ROLLING, Quantity
 from loadflow.rolling.contacts import STIFFNESS, Array, Contacts
 from loadflow.rolling.equilibrium import broadcast_loads
 from loadflow.rolling.rings.condensation import ring_modes
@@ -27,6 +30,9 @@ from loadflow.rolling.rings.dynamics import RingMotion, joint_motion
 from loadflow.rolling.rings.flexible import FlexibleRings
 
 if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
     from loadflow.rolling.raceways import BallRaceways
 
 
@@ -70,8 +76,15 @@ class Inertia:
         check_fields(self)
 
 
-@dataclass(frozen=True)
-class Transient:
+_SHOWN = {
+    "time": Quantity("t", "s", "time"),
+    "largest_force": Quantity("Q_max", "N", "largest contact force, without its damping"),
+    "residual": Quantity("", "1", "largest unbalanced component at the end over the largest load"),
+}
+
+
+@dataclass(frozen=True, repr=False)
+class Transient(Shown):
     """Motion over `time` (n,): displacement (n, 5), largest contact force (n,) and its rest.
 
     Attributes
@@ -99,6 +112,46 @@ class Transient:
     displacement: Array
     largest_force: Array
     residual: float
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a motion."""
+        return _SHOWN
+
+    def to_dataset(self) -> xr.Dataset:
+        """The motion over ``time``, with units."""
+        import xarray as xr
+
+        names = ["ux", "uy", "uz", "θx", "θy"]
+        moved = ROLLING["displacement"].attributes
+        return xr.Dataset(
+            {
+                "displacement": (("time", "dof"), self.displacement, moved),
+                "largest_force": ("time", self.largest_force, _SHOWN["largest_force"].attributes),
+                "residual": ((), self.residual, _SHOWN["residual"].attributes),
+            },
+            {"time": ("time", self.time, _SHOWN["time"].attributes), "dof": names},
+        )
+
+    def plot(self) -> Figure:
+        """Draw displacement, tilt and the largest contact force over time."""
+        from loadflow import plots
+
+        drawing, axes = plots.figure(3, 1, sharex=True)
+        for axis, first, last, scale, label in (
+            (axes[0], 0, 3, 1e6, "displacement, µm"),
+            (axes[1], 3, 5, 1e3, "tilt, mrad"),
+        ):
+            for k, name in enumerate(("x", "y", "z", "x", "y")[first:last], first):
+                axis.plot(self.time, scale * self.displacement[:, k], label=name)
+            axis.set(ylabel=label)
+            axis.legend()
+        axes[2].plot(self.time, self.largest_force / 1e3)
+        axes[2].set(xlabel="time, s", ylabel="largest force, kN")
+        return drawing
+
+    def __repr__(self) -> str:
+        force, unit = in_words(np.array(np.max(self.largest_force)), "N")
+        return f"<Transient of {self.time.size} steps, largest contact force {force} {unit}>"
 
 
 def transient_response(

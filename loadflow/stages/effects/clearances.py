@@ -17,7 +17,7 @@ from loadflow.shaft import Concept
 from loadflow.shaft.beam import BearingSupport
 from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.film_sizes import largest
+from loadflow.stages.effects.film_sizes import largest, no_bound_at_standstill
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
 from loadflow.stages.stage import with_settings
@@ -79,14 +79,24 @@ def place_of(at: Situation, name: str, sign: float) -> Place:
 
 
 @dataclass(frozen=True)
-class _Ends:
-    """Films by the ends of their bearing: `share` of it that these take, and `film` (n,), m."""
+class Ends:
+    """Films by the ends of their bearing: `share` of it that these take, and `film` (n,), m.
+
+    Slices of a film as thin as h carry ∝ 1/h, so that mid-plane rises by x/tanh x and the film at
+    the end is 2x/(e^2x − 1) of that of an aligned shaft: it closes, up to where surfaces touch. x,
+    the share, is as 1/h: whatever thins a film thins its end by more.
+    """
 
     share: Floats
     film: Floats
 
+    def left(self, least: float, by: float = 1.0) -> Floats:
+        """Film at the end (n,), m, of films `by` × as thick; no less than `least`."""
+        x = np.clip(self.share / by, 1e-9, 300.0)  # beyond, nothing is left in any number
+        return np.asarray(np.maximum(by * self.film * 2.0 * x / np.expm1(2.0 * x), least))
 
-def _ends(at: Situation) -> dict[str, _Ends]:
+
+def ends_afloat(at: Situation) -> dict[str, Ends]:
     """Films that a shaft floats in, and what the ends take of them: their gap is c − |e ± θ B/2|.
 
     The slope θ is that of `slopes` less the turn of the bores; ``alignment = "mean"`` takes the
@@ -109,7 +119,7 @@ def _ends(at: Situation) -> dict[str, _Ends]:
             away = 0.5 * own.geometry.width * moved_by(tilted - bore)
             ends = [np.linalg.norm(lies + side, axis=-1) for side in (away, -away)]
             share = (np.maximum(*ends) - np.linalg.norm(lies, axis=-1)) / film
-            found[name] = _Ends(share[carried], film[carried])
+            found[name] = Ends(share[carried], film[carried])
     return found
 
 
@@ -118,44 +128,18 @@ def closed_ends(at: Situation) -> dict[str, float]:
 
     By film that a shaft floats in, at its largest.
     """
-    return {name: float(ends.share.max()) for name, ends in _ends(at).items()}
-
-
-def thinnest_by(at: Situation, name: str, by: float) -> float:
-    """Thinnest film of a bearing over what it is, where films at mid-plane are `by` × as thick.
-
-    At the ends a shaft that floats in films takes more of it: x is as 1/h. As much as at mid-plane
-    where no plan lets the shaft tilt so, or its surfaces touch.
-    """
-    scene = at.scene
-    open_ = CLEARANCES.is_open(scene) and switched(scene, True, floating) is not None
-    ends = _ends(at).get(name) if open_ or CLEARANCES.is_on(scene) else None
-    if ends is None or by <= 0.0:
-        return by
-    gap, least = ends.film, scene.journal.at(name).contact_film
-    thin = _left(by * gap, ends.share / by, least).min() / _left(gap, ends.share, least).min()
-    return float(max(thin, by) if by > 1.0 else min(thin, by))
-
-
-def _left(film: Floats, share: Floats, least: float) -> Floats:
-    """Film at the ends, which take `share` of that at mid-plane of an aligned shaft, m.
-
-    Slices of a film as thin as h carry ∝ 1/h, so that mid-plane rises by x/tanh x and the film at
-    the end is 2x/(e^2x − 1) of that of an aligned shaft: it closes, up to where surfaces touch.
-    """
-    x = np.clip(share, 1e-9, 300.0)  # beyond, nothing is left in any number
-    return np.asarray(np.maximum(film * 2.0 * x / np.expm1(2.0 * x), least))
+    return {name: float(ends.share.max()) for name, ends in ends_afloat(at).items()}
 
 
 def _indicator(at: Situation) -> Sizes:
     """What the ends take, x, changes, at the same load.
 
-    Of the film by `_left`; the rest is calibrated on pilots of sized cylindrical bores,
+    Of the film as `Ends` says; the rest is calibrated on pilots of sized cylindrical bores,
     docs/physics.md.
     """
     found = []
-    for name, ends in _ends(at).items():
-        left = _left(ends.film, ends.share, at.scene.journal.at(name).contact_film)
+    for name, ends in ends_afloat(at).items():
+        left = ends.left(at.scene.journal.at(name).contact_film)
         most = float(np.maximum(ends.share, 1e-9).max())
         found.append(
             {
@@ -219,6 +203,7 @@ CLEARANCES = Effect(
     switched=lambda scene, on: switched(scene, on, floating),
     stated=lambda scene: stated(scene, floating),
     indicator=_indicator,
+    larger=no_bound_at_standstill,
     smaller=20.0,  # 13 at 15 MW, whose seed of 60 s swings less than is estimated
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '

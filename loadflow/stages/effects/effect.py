@@ -13,11 +13,10 @@ Series = Mapping[str, Any]
 """By stage, what it gave of a case."""
 
 Sizes = Mapping[str, float]
-"""By quantity, the share by which an answer changes if the effect is left out."""
+"""By quantity, the share by which an answer changes if the effect is left out; NaN: not known."""
 
 UNSURE = 3.0
-"""An effect over its indicator, where its pilots found no more; docs/physics.md. Exceeded by shell,
-supply and growth where a bent shaft closes the ends of its bearings (15 MW): 8 times."""
+"""An effect over its indicator, where its pilots found no more; docs/physics.md."""
 
 UNKNOWN = 1e4
 """The same where no indicator is a bound: then an effect is never out for certain."""
@@ -68,6 +67,8 @@ class Effect:
         measures the effect, does without it.
     probe : str
         Model whose probe measures it; empty: `model`.
+    untold : str
+        What it means that an indicator gives NaN.
     stated : callable, optional
         Scene → whether it decides the effect, where `keys` say more than that.
     muted : callable
@@ -94,6 +95,7 @@ class Effect:
     smaller: float = 4.0
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
     probe: str = ""
+    untold: str = ""
     stated: Callable[[Scene], bool] | None = None
 
     @property

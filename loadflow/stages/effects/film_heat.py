@@ -13,11 +13,10 @@ from loadflow.errors import InputError
 from loadflow.journal import FilmHeat, Growth, Heat, Lubricant, RingGrowth
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects.clearances import thinnest_by
 from loadflow.stages.effects.effect import Effect, Sizes
-from loadflow.stages.effects.film import no_bound_at_standstill
 from loadflow.stages.effects.film_costs import cost_of, cost_of_heat
-from loadflow.stages.effects.film_sizes import largest, worst
+from loadflow.stages.effects.film_sizes import largest, no_bound_at_standstill, worst
+from loadflow.stages.effects.film_tilt import thinnest_by
 from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.stage import with_settings
 from loadflow.tribology import Oil, lubricant
@@ -175,7 +174,8 @@ def _growth(at: Situation) -> Sizes:
         narrower = 1.0 - 0.5 * share  # So falls with the square of the clearance
         eccentricity = narrower ** (-2.0 * gains()["journal"]["eccentricity ratio"]) - 1.0
         sizes = worst(film, eccentricity, 0.3 * eccentricity, float(np.nanmax(share)))
-        found.append({**sizes, "minimum film": float(np.nanmax(share))})
+        thicker = thinnest_by(at, name, 1.0 + float(np.nanmax(share)))
+        found.append({**sizes, "minimum film": thicker - 1.0})
     return largest(found)
 
 

@@ -7,8 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import ArrayLike
 
-from loadflow.stages.effects.effect import Sizes
+from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Sizes
 from loadflow.stages.effects.situation import Film, Floats
+from loadflow.stages.turning import always_turns
+
+ANSWERS = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
 
 
 def worst(film: Film, eccentricity: Floats, pressure: Floats, power: float = 0.0) -> Sizes:
@@ -35,3 +39,12 @@ def asperity_share(film: ArrayLike, roughness: float) -> Floats:
 def largest(found: Sequence[Sizes]) -> Sizes:
     """Of all bearings, by quantity."""
     return {name: max(sizes[name] for sizes in found) for name in found[0]}
+
+
+def no_bound_at_standstill(scene: Scene) -> float:
+    """What a film's effect is over its indicator: no one knows where the shaft also stands.
+
+    There asperities carry it, and what tilt, shell and heat do to their friction and to the
+    pressure at their edges follows from no film: up to 1,700 times what is indicated.
+    """
+    return UNSURE if always_turns(scene) else UNKNOWN

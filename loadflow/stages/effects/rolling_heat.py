@@ -45,14 +45,14 @@ def _heat(at: Situation) -> Sizes:
     for name, part in _unknown(at.scene).items() if at.turns.any() else ():
         found.append(_of_bearing(at.scene.friction, part, at.bearings[name], at.speed))
     names = {name for one in found for name in one}
-    return {name: max(one.get(name, 0.0) for one in found) for name in sorted(names)}
+    # NaN of one bearing is that of all
+    return {name: float(np.max([one.get(name, 0.0) for one in found])) for name in sorted(names)}
 
 
 def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, speed: Floats) -> Sizes:
     """Sizes of one bearing; those of the point where each is largest.
 
-    One that is out of balance up to `HOTTEST` counts as so hot: its sizes are the least that they
-    may be.
+    NaN where its friction leaves at no temperature up to `HOTTEST`.
     """
     bearing: Any = part.geometry
     oil, turns = lubricant(options.lubricant), np.abs(speed) > 0
@@ -66,15 +66,21 @@ def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, spee
         warms = lost > conductance * (middle - air)
         low, high = np.where(warms, middle, low), np.where(warms, high, middle)
     hot, cool = 0.5 * (low + high), np.full(low.shape, stated)
+    if (high == air + HOTTEST).any():  # no middle has shed what is lost
+        return dict.fromkeys(MOVED, float("nan"))
     warm, assumed = (np.asarray(oil.kinematic_viscosity(each), float) for each in (hot, cool))
     ratio = assumed / warm
-    changes = {
-        "viscosity ratio": ratio,
-        "film parameter": ratio**FILM_POWER,
-        "friction power": own.torque(assumed) / own.torque(warm),
-        "modified life": own.lives(options, cool) / own.lives(options, hot),
-    }
-    return {name: float(np.abs(change - 1.0).max()) for name, change in changes.items()}
+    changes = (
+        ratio,
+        ratio**FILM_POWER,
+        own.torque(assumed) / own.torque(warm),
+        own.lives(options, cool) / own.lives(options, hot),
+    )
+    return {name: float(np.abs(change - 1.0).max()) for name, change in zip(MOVED, changes)}
+
+
+MOVED = ("viscosity ratio", "film parameter", "friction power", "modified life")
+"""What another temperature of the oil moves."""
 
 
 class _Friction:
@@ -168,5 +174,7 @@ ROLLING_HEAT = Effect(
         and "temperature" not in scene.friction.changed
     ),
     probe="friction",
+    untold="its friction leaves at no temperature up to "
+    f"{HOTTEST:g} K above the air by the cooling stated or assumed",
     cost=_cost,
 )

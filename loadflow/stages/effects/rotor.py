@@ -121,8 +121,8 @@ def _spectral(scene: Scene) -> bool:
 def _lateral(at: Situation) -> Sizes:
     """Loads that v and w make where they swing together all over the rotor; by the cube of V.
 
-    Measured without that: damage-equivalent moments of 0.1 to 0.7 % less at 6 and 12 m/s, 0.5 to
-    0.9 % at 18 m/s, 3.2 to 3.4 % at 24 m/s; extremes up to 1.5 times as much; docs/physics.md.
+    Measured without that: damage-equivalent moments of 0.3 to 0.6 % less at 6 and 12 m/s, 0.7 to
+    1.2 % at 18 m/s, 3.0 to 3.9 % at 24 m/s; extremes up to 1.8 times as much; docs/physics.md.
     """
     share = COHERENCE * float(np.max(at.wind_speed) / 24.0) ** 3
     return {**_of_loads(1.5 * share), "bearing force DEL": share}

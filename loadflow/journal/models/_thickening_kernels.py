@@ -1,0 +1,82 @@
+"""Compiled: a liquid of a reduced film with effects that pressure thickens."""
+
+from __future__ import annotations
+
+from loadflow.journal.cavitation import DP, LOAD, P
+from loadflow.journal.models._compile import inner
+from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._touch_kernels import of_table
+
+PRESSURE, THICK = range(2)  # of `work.thick`
+_RISE = 2.0  # of the logarithm of the viscosity in a Newton step
+_LEAST = 0.01  # share of a step that is always gone
+
+
+@beside(lambda film, work: None)
+def thicken(film, work):
+    """Let what drives the flow know the viscosity, in the `state` that the law filled."""
+    if film.thickening.on:
+        for i in range(work.u.shape[0]):
+            for k in range(film.nodes.slopes.shape[1]):
+                p = work.state[P, i, k]
+                driving, slope = of_table(film.thickening, 0, p)
+                work.thick[PRESSURE, i, k], work.thick[THICK, i, k] = p, 1.0 / slope
+                work.state[P, i, k] = driving
+                work.state[DP, i, k] *= slope
+
+
+@inner
+def pressure_at(film, work, i, k):
+    """Pressure of the law at a point, Pa."""
+    return work.thick[PRESSURE, i, k] if film.thickening.on else work.state[P, i, k]
+
+
+@inner
+def thickness_at(film, work, i, k):
+    """Viscosity at a point over that without pressure; also at the bearing ends."""
+    if not film.thickening.on:
+        return 1.0
+    if k < film.nodes.slopes.shape[1]:
+        return work.thick[THICK, i, k]
+    return 1.0 / of_table(film.thickening, 0, film.ring.p_edge)[1]
+
+
+@beside(lambda film, work, step, size: 1.0)
+def share_of_rise(film, work, step, size):
+    """Share of a Newton step in which pressure makes the liquid e² times as thick at most.
+
+    Beyond where it is to end the liquid has next to no flow, and no step would lead back.
+    """
+    share = 1.0
+    if film.thickening.on:
+        for i in range(work.u.shape[0]):
+            for k in range(film.nodes.slopes.shape[1]):
+                fall = work.columns[0, i, k]
+                for a in range(size):
+                    fall += work.columns[1 + a, i, k] * step[a]
+                most = _RISE * film.thickening.rise + work.thick[PRESSURE, i, k] - work.u[i, k]
+                if fall < 0.0 and -fall * share > most:
+                    share = most / -fall
+    return max(share, _LEAST)
+
+
+@beside(lambda film, work: 0.0)
+def lost_more(film, work):
+    """What the flow by pressure loses more than what drives it tells."""
+    total, nodes, ring = 0.0, film.nodes, film.ring
+    if film.thickening.on:
+        nx, m = ring.cos.size, nodes.slopes.shape[1]
+        p, cube, flows = work.state[LOAD], work.gap[3], work.face[0]
+        for i in range(nx):
+            right = i + 1 if i + 1 < nx else 0
+            across = 0.0 if ring.groove[i] else ring.width[i]
+            for k in range(nodes.z.size):
+                more = thickness_at(film, work, i, k) - 1.0
+                slope = work.slope[i, k]
+                total += nodes.weights[k] * cube[i, k] * slope * slope * across * more
+            for k in range(m):
+                both = 0.5 * (work.thick[THICK, i, k] + work.thick[THICK, right, k])
+                rise = p[right, k] - p[i, k]
+                less = 1.0 / both - 1.0
+                total += nodes.weights[k] * flows[i, k] * rise * rise * less / ring.apart[i]
+    return total

@@ -1,0 +1,72 @@
+"""How far the searches for one film may go: Newton steps times cells, counted and never timed.
+
+A search that leads nowhere has no end of its own: it goes on with other starts, smaller steps and
+more cells. What it may take follows from the film alone, so that the same question has the same
+answer on every machine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from loadflow.journal.film.elastic import ElasticFilm
+from loadflow.journal.film.film import DiscreteFilm
+
+_STEPS_OF_CELLS = 4e4  # Newton steps times cells, for each step that one solution may take
+_LEAST = 2  # steps on any cells, in multiples of those that one solution may take
+# time of a step over that in a rigid bore: of a shell that gives way locally, of one that gives way
+# all over, for each column of its linear system, and of asperities on either
+_GIVES, _SPREADS, _TOUCHES = 1.5, 2.0, 4.0
+
+
+@dataclass
+class Effort:
+    """What is left of it, and the Newton steps that were taken.
+
+    Attributes
+    ----------
+    left : float
+        Newton steps times cells of a film in a rigid bore, of about a microsecond each.
+    spent : int
+        Newton steps on all cells.
+    kept : float
+        Of what is left, that is kept for other cells.
+
+    Examples
+    --------
+    >>> from loadflow.journal.solvers.effort import Effort
+    >>> Effort(left=0.0).over
+    True
+    """
+
+    left: float
+    spent: int = 0
+    kept: float = 0.0
+
+    @classmethod
+    def of(cls, film: DiscreteFilm, most: int) -> Effort:
+        """That of a film of which one solution may take `most` steps."""
+        return cls(most * max(_STEPS_OF_CELLS, _LEAST * _cost(film)))
+
+    @property
+    def over(self) -> bool:
+        """Whether nothing is left of it."""
+        return self.left <= self.kept
+
+    def take(self, film: DiscreteFilm, steps: int) -> None:
+        """Note Newton steps of a film."""
+        self.left -= steps * _cost(film)
+        self.spent += steps
+
+    def steps(self, film: DiscreteFilm) -> int:
+        """Newton steps of a film that are left."""
+        return max(int((self.left - self.kept) / _cost(film)), 0)
+
+
+def _cost(film: DiscreteFilm) -> float:
+    """What a Newton step takes, in cells of a film in a rigid bore."""
+    cells = film.mesh.shape[0] * film.mesh.shape[1]
+    if not isinstance(film, ElasticFilm):
+        return float(cells)
+    gives = _SPREADS * (1 + film.moves) if film.compliance.spreads else _GIVES
+    return cells * gives * (1.0 if film.contact is None else _TOUCHES)
