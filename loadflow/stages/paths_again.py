@@ -48,8 +48,6 @@ def paths_again(
     other = scene.model_copy(update={"journal": journal})
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
-        step = time_step(parts["loads"])
-        taken, finer = scene.journal.every(step), better.every(step)
         runs, where = running_ratio(case, film), f"{case.name}, {bearing}"
         whirls = whirling(film) & np.isfinite(runs)
         if whirls.any() and np.array_equal(whirls, np.isfinite(runs)):
@@ -66,57 +64,87 @@ def paths_again(
             if (touches.any() and better.contact is None) or np.isnan(runs).all():
                 yield _not_solved(stage, where, touches.mean(), better)
                 continue
-        worst = int(np.nanargmax(runs))
-        formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
-        begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
-        lead = 0
-        if scene.shaft.coupled:  # a shaft in its films begins with a past of its own, and forgets
-            turn = 2.0 * np.pi / max(float(np.abs(film["speed"][begin])), SLOWEST)
-            lead = min(begin - formed, int(FORGOTTEN * turn / (step * taken)))
-        elif not (recent := remembered(film, begin, step * taken)).all():
-            lead = min(begin - formed, recent.size)
-        begin -= lead
-        place = film["eccentricity"].values[begin]
-        steps = min(STEPS + lead, film.sizes["sample"] - begin)
-        stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
-        known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
-        steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
-        # taken up in the middle, a film has no past: what it does before it has one is no answer
-        if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
-            known = max(known, min(STEPS // 4, (steps - lead) // 2) + lead)
-        ours = film.isel(sample=slice(begin, begin + steps))
-        series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
-        loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
-        try:
-            path = in_motion(other, bearing, loads, shaft.sel(bearing=bearing), place)
-            theirs = extremes_of_orbit(path, known * taken // finer)
-        except SolverError:
-            theirs = dict.fromkeys(FILM, np.nan)
-        found = extremes_of_orbit(ours, known)
+        places, ours, theirs = _stretch(scene, other, bearing, parts, runs, np.nanargmax(runs))
         # cells count where the film is thin, warmth all along the path
-        judged = ours.isel(sample=slice(known, None)) if stage == CELLS.name else film
-        answers = answers_of_path(film, judged, found, theirs)
-        yield from differences(stage, "journal.film", where, against, found, answers)
+        some = places if stage == CELLS.name else slice(None)
+        theirs = answers_of_path(film, some, ours, theirs)
+        alone = np.where(np.isfinite(runs) & (film["in_contact"] == 0), runs, np.nan)
+        if film["in_contact"][places].any() and np.isfinite(alone).any():
+            # where surfaces rub, oil has hardly any pressure beside that of films that carry alone
+            peak = film["maximum_pressure"].where(np.isfinite(alone)).argmax("sample")
+            _, here, there = _stretch(scene, other, bearing, parts, alone, peak)
+            for found, also in ((ours, here), (theirs, there)):
+                pressures = [one["maximum_pressure"] for one in (found, also)]
+                found["maximum_pressure"] = float(np.max(pressures))
+        yield from differences(stage, "journal.film", where, against, ours, theirs)
+
+
+def _stretch(
+    scene: Scene,
+    other: Scene,
+    bearing: str,
+    parts: Mapping[str, Any],
+    runs: np.ndarray,
+    around: np.integer | xr.DataArray,
+) -> tuple[slice, dict[str, float], dict[str, float]]:
+    """Where a stretch around a sample is, and its extremes as they are and by the `other` scene.
+
+    It reaches as far as `runs` (n,) are finite.
+    """
+    film, worst = parts["journal"][bearing].to_dataset().load(), int(around)
+    step = time_step(parts["loads"])
+    taken, finer = scene.journal.every(step), other.journal.at(bearing).every(step)
+    formed = int(np.argmax(np.isfinite(film["eccentricity"].values[:, 0])))
+    begin = max(formed, min(worst - 3 * STEPS // 4, film.sizes["sample"] - STEPS))
+    lead = 0
+    if scene.shaft.coupled:  # a shaft in its films begins with a past of its own, and forgets
+        turn = 2.0 * np.pi / max(float(np.abs(film["speed"][begin])), SLOWEST)
+        lead = min(begin - formed, int(FORGOTTEN * turn / (step * taken)))
+    elif not (recent := remembered(film, begin, step * taken)).all():
+        lead = min(begin - formed, recent.size)
+    begin -= lead
+    place = film["eccentricity"].values[begin]
+    steps = min(STEPS + lead, film.sizes["sample"] - begin)
+    stands = begin + np.flatnonzero(~np.isfinite(runs[begin : begin + steps]))
+    known = 1 + int(stands[stands < worst].max(initial=begin - 1)) - begin
+    steps = int(stands[stands > worst].min(initial=begin + steps)) - begin
+    # taken up in the middle, a film has no past: what it does before it has one is no answer
+    if begin > formed or (begin == 0 and past_of(scene, parts["loads"]).steps):
+        known = max(known, min(STEPS // 4, (steps - lead) // 2) + lead)
+    ours = film.isel(sample=slice(begin, begin + steps))
+    series = slice(begin * taken, (begin + steps - 1) * taken + 1, finer)
+    loads, shaft = (parts[name].isel(time=series).load() for name in ("loads", "shaft"))
+    try:
+        path = in_motion(other, bearing, loads, shaft.sel(bearing=bearing), place)
+        theirs = extremes_of_orbit(path, known * taken // finer)
+    except SolverError:
+        theirs = dict.fromkeys(FILM, np.nan)
+    places = slice(begin + known, begin + steps)
+    return places, extremes_of_orbit(ours, known), theirs
 
 
 def answers_of_path(
-    film: xr.Dataset, stretch: xr.Dataset, ours: dict[str, float], theirs: dict[str, float]
+    film: xr.Dataset, places: slice, ours: dict[str, float], theirs: dict[str, float]
 ) -> dict[str, float]:
-    """What answers of the whole path would be if a `stretch` of it had `theirs` in place of `ours`.
+    """What answers of the whole path are if a stretch of it, at `places`, has `theirs`.
 
-    Over `ours` of the stretch. An extreme is as it was where asperities carry the shaft at rest
-    beyond it. The friction of a path is its mean: that of samples in which the shaft lies as far
-    out as in the stretch has its change.
+    In place of `ours`, and over those. Film and ε stay as they are where asperities carry the shaft
+    at rest beyond these. The friction of a path is its mean: that of samples in which the shaft
+    lies as far out as in the stretch has its change.
     """
+    stretch = film.isel(sample=places)
+    runs = np.broadcast_to(np.asarray(counted(film)), (film.sizes["sample"],))
+    rests = (film["in_contact"] > 0) & ~runs
+    stays = {
+        "minimum_film": (np.fmin, film["minimum_film"].where(rests).min()),
+        "eccentricity_ratio": (np.fmax, film["eccentricity_ratio"].where(rests).max()),
+    }
     found = dict(theirs)
-    rests = (film["in_contact"] > 0) & ~np.asarray(counted(film))
-    for name, further in (("minimum_film", min), ("eccentricity_ratio", max)):
-        rest = film[name].where(rests)
-        if rest.notnull().any():
-            at_rest = float(rest.min() if further is min else rest.max())
-            reached = further(ours[name], at_rest)
-            found[name] = ours[name] * further(theirs[name], at_rest) / reached
-    power = film["friction_power"].where(counted(film))
+    for name, (further, rest) in stays.items():
+        if np.isfinite(theirs[name]):
+            reached = further(ours[name], float(rest))
+            found[name] = float(ours[name] * further(theirs[name], float(rest)) / reached)
+    power = film["friction_power"].where(runs)
     alike = film["eccentricity_ratio"] >= stretch["eccentricity_ratio"].min()
     mean, change = ours["friction_power"], theirs["friction_power"] - ours["friction_power"]
     if power.sum() > 0.0:

@@ -103,17 +103,22 @@ def test_films_in_motion_and_at_rest_are_compared_while_the_rotor_runs():
 
 def test_what_asperities_carry_at_rest_and_the_mean_friction_are_the_answers_of_a_start():
     rows = {
-        "in_contact": [1, 1, 0, 0, 0, 0],
+        "in_contact": [1, 1, 1, 0, 0, 0],
         "running": [0, 0, 1, 1, 1, 1],
         "minimum_film": [1e-6, 1e-6, 3e-6, 4e-6, 1e-4, 1e-4],
         "eccentricity_ratio": [1.001, 1.001, 0.99, 0.98, 0.6, 0.6],
+        "maximum_pressure": [9e6, 9e6, 1e6, 2e6, 3e6, 3e6],
         "friction_power": [5.0, 5.0, 10.0, 10.0, 40.0, 40.0],
     }
     film = xr.Dataset({name: ("sample", np.array(row)) for name, row in rows.items()})
-    stretch = film.isel(sample=slice(2, 4))
-    ours = extremes_of_orbit(film.assign(maximum_pressure=film["friction_power"]), 0)
-    ours |= {"minimum_film": 3e-6, "eccentricity_ratio": 0.99, "friction_power": 10.0}
-    theirs = ours | {"minimum_film": 4e-6, "eccentricity_ratio": 0.98, "friction_power": 12.0}
+    stretch = slice(2, 4)
+    ours = extremes_of_orbit(film.isel(sample=stretch))
+    theirs = {
+        "minimum_film": 4e-6,
+        "eccentricity_ratio": 0.98,
+        "maximum_pressure": 2.5e6,
+        "friction_power": 12.0,
+    }
     found = answers_of_path(film, stretch, ours, theirs)
     # surfaces that rest on each other are nearer than those that lift off, whatever their cells
     assert found["minimum_film"] == ours["minimum_film"]
@@ -122,3 +127,4 @@ def test_what_asperities_carry_at_rest_and_the_mean_friction_are_the_answers_of_
     assert found["friction_power"] / ours["friction_power"] == pytest.approx(1.04)
     smooth = answers_of_path(film.assign(in_contact=0 * film["in_contact"]), stretch, ours, theirs)
     assert smooth["minimum_film"] == theirs["minimum_film"]
+    assert smooth["maximum_pressure"] == theirs["maximum_pressure"]

@@ -389,7 +389,8 @@ def orbit(
         elif not march.asks_for_more(done, end):
             level = march.levels[0]
         done, state = end, after
-    left = model.unresolved_on_path(rows, force)
+    # where surfaces rub, what is missed of the oil's pressure is little beside what they carry
+    left = model.unresolved_on_path(rows, force) & ~rubs(rows, force)
     if left.any():
         warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
     values = march.results() | {"x": rows[:, at.X], "y": rows[:, at.Y]}
