@@ -14,6 +14,8 @@ DRAWS = [
     ("cylinder", 30007),
     ("shaped", 30001),  # pads whose tilt at a given position Newton's method does not find
     ("shaped", 30017),
+    ("pads", 30001),  # eight alike on sixty cells, of which the last digits of a span gave one more
+    ("pads", 30004),
     ("supply", 30002),
     ("line", 30003),  # the narrowest gap between the places where it is sampled
     ("line", 30006),

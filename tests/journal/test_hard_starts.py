@@ -24,7 +24,7 @@ from loadflow.journal import (
     Supply,
 )
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.models import grid
+from loadflow.journal.models import grid, reduced
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
@@ -330,3 +330,15 @@ def test_a_search_that_leads_nowhere_ends_after_a_count_of_steps_that_it_tells(n
 def test_the_cells_asked_for_leave_a_search_enough_for_twice_as_many():
     """Number 3084 has no film in its shell on 48 cells around, however long it is sought."""
     assert drawn("shell", 3084)[1]().converged
+
+
+def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
+    """Number 527 stops on any cells, and took 28 s to be tried on up to 480 around."""
+    asked: list[tuple[int, int]] = []
+    path = reduced._path
+    monkeypatch.setattr(
+        reduced, "_path", lambda *given: asked.append(given[1].cells) or path(*given)
+    )
+    with pytest.raises(SolverError, match=r"orbit cannot start: .* residual"):
+        drawn("composed", 527)[1]()
+    assert [around for around, _ in asked] == [60]

@@ -28,7 +28,7 @@ LOAD_SHARE = 1.0 / 6.0  # of the load, of all second differences
 _PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
 _FED = 1.25  # of the peak beside grooves, at whose edges the pressure has corners
 _TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
-_FED_TURN = 1.5  # of that beside grooves
+_FED_MOVES = 1.6  # of the way of the shaft beside grooves
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
 # where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
 _NODES, _CLOSES = 1.25, 1.5
@@ -166,12 +166,12 @@ def resting_errors(left: Left, balance: Balance) -> Array:
     ways = np.zeros((*far.shape, 3, facing.shape[-1]))
     ways[..., 0, 0], ways[..., 0, 1] = along_x, along_y
     ways[..., 1, 0], ways[..., 1, 1], ways[..., 2, :] = -along_y, along_x, facing
-    moved = np.abs(ways @ _inverse(balance.stiffness)) @ balance.arms * missing[..., None]
+    felt = missing * (_FED_MOVES if balance.fed else 1.0)
+    moved = np.abs(ways @ _inverse(balance.stiffness)) @ balance.arms * felt[..., None]
     outward, sideways, closer = moved[..., 0], moved[..., 1], moved[..., 2]
     out = np.zeros((*far.shape, 7))
     out[..., 1] = np.where(far > 0.0, outward / known, 0.0)
-    turn = _TURN * (_FED_TURN if balance.fed else 1.0)
-    out[..., 2] = np.where(far > 0.0, turn * np.hypot(outward, sideways) / known, 0.0)
+    out[..., 2] = np.where(far > 0.0, _TURN * np.hypot(outward, sideways) / known, 0.0)
     closer = closer * balance.opens  # rough surfaces keep a gap between them as their planes close
     whole, shifted = np.hypot(balance.load[..., 0], balance.load[..., 1]), 0.0
     if balance.touching is not None:  # what the film leaves, asperities take

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
@@ -170,9 +171,13 @@ def relief_marks(
 
 
 def cells_on(segments: Sequence[Segment], cells: int) -> list[int]:
-    """Share `cells` out among segments by what they span."""
+    """Share `cells` out among segments by what they span; as many to each of equal ones.
+
+    A half counts as one more: the last digits of a span would decide otherwise.
+    """
     spans = [part.end - part.start for part in segments]
-    return [max(_FEWEST, round(cells * span / sum(spans))) for span in spans]
+    shares = [round(cells * span / sum(spans), 9) for span in spans]
+    return [max(_FEWEST, math.floor(share + 0.5)) for share in shares]
 
 
 def _around_segments(

@@ -130,6 +130,7 @@ class March:
         self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
         self.typical = float(drive.specific_load.mean())
         self.reached: State | None = None
+        self.work = 0.0  # Newton steps times cells so far
 
     def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
         """Solve for the samples `begin` … `end`, and whether all have been; moves `place`."""
@@ -139,6 +140,11 @@ class March:
             self.lines[:end], drive.speed[:end], drive.control.tolerance, most, self.accuracy,
             self.rows[:end], _NO_SLOPES, self.warmth, self.states[:end],
         )  # fmt: skip
+        return self._solved(begin, solved, model.work.u.size)
+
+    def _solved(self, begin: int, solved: int, cells: int) -> bool:
+        """Note what the samples from `begin` on took, and whether the last of them is found."""
+        self.work += float(self.rows[begin:solved, at.ITERATIONS].sum() * cells)
         return bool(self.rows[solved - 1, at.CONVERGED])
 
     def resolved(self, level: int, begin: int, end: int) -> bool:
@@ -248,16 +254,15 @@ class March:
         """Say that there is no film at the first time."""
         drive, row = self.drive, self.rows[0]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
-        return no_start(drive.force[0], drive.speed[0], ratio, _found_in(row))
+        return no_start(drive.force[0], drive.speed[0], ratio, _found_in(row), self.work)
 
     def stops(self, begin: int, end: int) -> OrbitStopped:
         """Say at which of the samples `begin` … `end` a path ends: the first without a film."""
         drive, last = self.drive, begin + int(np.argmin(self.rows[begin:end, at.CONVERGED]))
         row = self.rows[last]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
-        return stopped(
-            drive.time[last], drive.force[last], drive.speed[last], ratio, _found_in(row)
-        )
+        given = drive.time[last], drive.force[last], drive.speed[last], ratio
+        return stopped(*given, _found_in(row), work=self.work)
 
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""
@@ -292,7 +297,7 @@ class _OnPads(March):
             self.loads[:end], self.lines[:end], drive.speed[:end], drive.control.tolerance, most,
             self.accuracy, self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
         )  # fmt: skip
-        return bool(self.rows[solved - 1, at.CONVERGED])
+        return self._solved(begin, solved, model.work.u.size)
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, near the place of the grid; None where it is not found."""

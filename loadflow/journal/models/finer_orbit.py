@@ -13,12 +13,15 @@ from loadflow.journal.solvers.transient import OrbitStopped
 if TYPE_CHECKING:
     import xarray as xr
 
+_WORK = 3e6  # Newton steps times cells of all paths, beyond which none on more cells is begun
+
 
 def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int) -> xr.Dataset:
     """The orbit on the cells of a film, or where it stops on them, on more of them around.
 
     On cells fixed to the shell the gap may close between two of them, and no film is left to carry
-    the load; which cells an orbit took says its attribute `cells_around`.
+    the load; which cells an orbit took says its attribute `cells_around`. Twice the cells take at
+    least twice the work up to the same place: they are not tried where that would be too much.
 
     Parameters
     ----------
@@ -36,6 +39,7 @@ def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int
     """
     around, across = options.cells
     stop: OrbitStopped | None = None
+    done = ahead = 0.0
     while True:
         try:
             found = path(options if stop is None else replace(options, grid=(around, across)))
@@ -44,6 +48,8 @@ def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int
             if stop is None and not isinstance(error, OrbitStopped):
                 raise
             stop = stop or cast("OrbitStopped", error)
-        if 2 * around > most:
+            own = error.work if isinstance(error, OrbitStopped) else 0.0
+            done, ahead = done + own, 2.0 * own
+        if 2 * around > most or done + ahead > _WORK:
             raise stop
         around *= 2

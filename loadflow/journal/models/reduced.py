@@ -229,8 +229,10 @@ def _path(
                 replace(control, strict=True),
             )  # fmt: skip
         except SolverError as error:
-            why = str(error).removeprefix("load 0: ")
-            raise OrbitStopped(f"orbit cannot start: {why}") from error
+            why = f"orbit cannot start: {str(error).removeprefix('load 0: ')}"
+            if options.shell is not None:
+                raise SolverError(why) from error  # the grid has tried more cells
+            raise OrbitStopped(why) from error
         unit = bearing.radius / bearing.clearance
         place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0

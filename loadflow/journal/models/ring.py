@@ -166,7 +166,11 @@ def estimates(bearing: JournalGeometry, film: DiscreteFilm, force: Array, speed:
 
 
 def no_start(
-    force: Array, speed: float, ratio: float, found: tuple[float, float, float]
+    force: Array,
+    speed: float,
+    ratio: float,
+    found: tuple[float, float, float],
+    work: float = 0.0,
 ) -> OrbitStopped:
     """Say that an orbit has no equilibrium to start from.
 
@@ -176,6 +180,8 @@ def no_start(
         First load (2,), N, its speed, rad/s, and the eccentricity ratio at which Newton ended.
     found : tuple of float
         Residual, its rounding level, and Newton steps.
+    work : float
+        As of `OrbitStopped`.
     """
     why = not_found(*found, ratio)
-    return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, why)}")
+    return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, why)}", work=work)

@@ -53,5 +53,5 @@ def orbit_start(
         why = f"orbit cannot start: {statics.message(first, load)}"
         if statics.film.elastic and statics.film.clearance_left(first.position) <= APART:
             raise SolverError(why)  # which more cells do not change
-        raise OrbitStopped(why)
+        raise OrbitStopped(why, work=float(first.iterations * statics.film.mesh.order.size))
     return first

@@ -38,11 +38,13 @@ class OrbitStopped(SolverError):
     ----------
     time : float
         Where it stops, s; NaN for the first film.
+    work : float
+        Newton steps times cells that it took up to there; 0 where they were not counted.
     """
 
-    def __init__(self, message: str, time: float = math.nan) -> None:
+    def __init__(self, message: str, time: float = math.nan, work: float = 0.0) -> None:
         super().__init__(message)
-        self.time = time
+        self.time, self.work = time, work
 
 
 def stopped(
@@ -52,6 +54,7 @@ def stopped(
     ratio: float,
     found: tuple[float, float, float],
     why: str = "",
+    work: float = 0.0,
 ) -> OrbitStopped:
     """Say at which load an orbit stops.
 
@@ -64,11 +67,14 @@ def stopped(
         Residual, its rounding level, and Newton steps.
     why : str
         What else is known.
+    work : float
+        As of `OrbitStopped`.
     """
     return OrbitStopped(
         f"orbit stops at t = {time:.6g} s: F = ({force[0]:.6g}, {force[1]:.6g}) N, "
         f"ω = {speed:.6g} rad/s, ε = {ratio:.6g}; {unresolved(*found)}{why}",
         float(time),
+        work,
     )
 
 
@@ -250,7 +256,8 @@ def march(
     OrbitStopped
         A step fails even when cut.
     """
-    rows, extremes = [], Extremes(marcher.film)
+    rows: list[dict[str, Any]] = []
+    extremes = Extremes(marcher.film)
     for i in range(1, time.size):
         before = (force[i - 1], float(speed[i - 1]))
         now = float(time[i])
@@ -259,7 +266,9 @@ def march(
         if not solution.converged:
             found = solution.residual, solution.rounding, solution.iterations
             ratio, why = math.hypot(*solution.position[:2]), touches(marcher.film, solution)
-            raise stopped(now, force[i], speed[i], ratio, found, why)
+            taken = solution.iterations + sum(row["iterations"] for row in rows)
+            work = float(taken * marcher.film.mesh.order.size)
+            raise stopped(now, force[i], speed[i], ratio, found, why, work)
         rows.append(orbit_row(marcher.film, solution, steps))
         extremes.see(rows[-1], solution)
     return rows, past, extremes
