@@ -3,10 +3,14 @@
 import subprocess
 import sys
 
+import pytest
 
-def test_importing_the_package_loads_no_heavy_library():
+
+@pytest.mark.parametrize("module", ["loadflow", "loadflow.running.executor"])
+def test_importing_the_package_loads_no_heavy_library(module):
+    """Nor does that of the processes of a run, which begin before all else."""
     code = (
-        "import sys, loadflow;"
+        f"import sys, {module};"
         "heavy = ('numba', 'scipy', 'matplotlib', 'pandas', 'xarray');"
         "print([name for name in heavy if name in sys.modules])"
     )

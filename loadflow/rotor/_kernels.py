@@ -6,6 +6,7 @@ e_r = −sin ψ y + cos ψ z, in the sense of rotation e_t = −cos ψ y − sin
 
 import numpy as np
 
+from loadflow.numerics.entries import enter
 from loadflow.numerics.references import refer
 
 from ._compile import inner_once, kernel, once
@@ -60,8 +61,8 @@ def respond(
     """Second half of a step: what rotor, tower and control do under the forces in `room`.
 
     `speed`, `turned`: predicted speed and azimuth of the rotor; `since`: time for what lags, 0
-    where it is steady; the others as in `march`. By itself, so that two processes can compile the
-    halves at once, see `loop.compile_response`.
+    where it is steady; the others as in `march`. By itself, called by its place in memory, so that
+    two processes can compile the halves at once, see `loop.compile_response`.
     """
     sections, modes, count, twist = m.radius.size, q.shape[1], h.size, m.frame.twist
     shape, motion, force, answer, found = (
@@ -147,15 +148,16 @@ def respond(
 
 @once
 def march(
-    m, c, schedule, inflow, dt, steps, start, fresh, controlled, state, blade_pitch, q, v, acc,
-    h, h_rate, h_acc, guess, wake, induced, torsions, room, out,
+    response, m, c, schedule, inflow, dt, steps, start, fresh, controlled, state, blade_pitch, q,
+    v, acc, h, h_rate, h_acc, guess, wake, induced, torsions, room, out,
 ):  # fmt: skip
     """March the rotor; `state` (SLOTS,), `blade_pitch` (blades,), `q`, `v`, `acc` (blades, k), `h`,
     `h_rate`, `h_acc` (h,; place 0, the generator, is in `state`), `guess`, `wake`, `induced`,
     `torsions` (blades, n; without sections if no blade twists) go on.
 
-    `fresh`: wake and induced speed are steady at first. Not `controlled`: speed and pitch stay.
-    `room` is a `Room`; `out` (steps, COLUMNS + blades) is filled.
+    `response`: the `Entry` of `respond`. `fresh`: wake and induced speed are steady at first. Not
+    `controlled`: speed and pitch stay. `room` is a `Room`; `out` (steps, COLUMNS + blades) is
+    filled.
     """
     m, c, schedule, inflow, room = refer(m), refer(c), refer(schedule), refer(inflow), refer(room)
     sections, count, twist = m.radius.size, h.size, m.frame.twist
@@ -190,10 +192,10 @@ def march(
         state[S_AXIAL], state[S_Y], state[S_Z] = mean_x, mean_y, mean_z
         hub = hub_wind(m, inflow, step, time)
         out[step, WIND_X], out[step, WIND_Y], out[step, WIND_Z] = hub[0], hub[1], hub[2]
-        respond(
+        enter(response, (
             m, c, schedule, dt, step, time, since, controlled, speed, turned, state, blade_pitch, q,
             v, acc, h, h_rate, h_acc, torsions, room, out,
-        )  # fmt: skip
+        ))  # fmt: skip
 
 
 @kernel

@@ -9,6 +9,7 @@ from numba import types
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.numerics.entries import Entry
 from loadflow.numerics.references import kind_of
 from loadflow.turbines import load_turbine
 
@@ -140,11 +141,12 @@ def run(
     """
     out = np.full((steps, k.COLUMNS + m.blades), np.nan)
     fresh = not (state.wake.any() or state.induced.any())
+    response = Entry(kernels.respond, response_kinds(m, c, dt))
     kernels.march(
-        m, c, schedule, inflow, dt, steps, start, fresh, controlled, state.scalars, state.pitch,
-        state.modes, state.mode_speed, state.mode_acceleration, state.frame, state.frame_speed,
-        state.frame_acceleration, state.inflow_angle, state.wake, state.induced, state.torsion,
-        room_for(m), out,
+        response, m, c, schedule, inflow, dt, steps, start, fresh, controlled, state.scalars,
+        state.pitch, state.modes, state.mode_speed, state.mode_acceleration, state.frame,
+        state.frame_speed, state.frame_acceleration, state.inflow_angle, state.wake, state.induced,
+        state.torsion, room_for(m), out,
     )  # fmt: skip
     bad = ~np.isfinite(out).all(axis=1) | (np.abs(out[:, k.SPEED]) > 10)
     if bad.any():
@@ -161,8 +163,8 @@ def run(
 def compile_response() -> None:
     """Compile the half of the loop that answers the forces of the air, where it is not on the disk.
 
-    A process that calls `run` for the first time compiles the loop, flow first, and takes what it
-    finds of the other half by then. The kernels are the same for all turbines and options.
+    A process that calls `run` for the first time compiles the loop without it, and needs it when
+    that is done. The kernels are the same for all turbines and options.
     """
     plant = load_turbine("nrel-5mw")
     m = machine(plant, RotorOptions())

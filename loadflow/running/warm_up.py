@@ -63,9 +63,9 @@ SIMPLER = ", simpler"
 """Ends the name of a job that takes a model without the effects that have kernels of their own."""
 
 SECONDS = {
-    "rolling": 32.0,
+    "rolling": 29.0,
     "journal": 20.0,
-    "loads": 17.0,
+    "loads": 14.0,
     "thrust": 10.0,
     f"journal{SIMPLER}": 10.0,
     "rotor": 8.0,
@@ -85,7 +85,7 @@ AS_CALLED = "compiling kernels as they are called, about a minute, once on this 
 """What a process alone says of it."""
 
 ROTOR = "rotor"
-"""Job of the half of the rotor's loop that the job of the loads finds compiled when it needs it."""
+"""Job of the half of the rotor's loop that the job of the loads needs when its own is compiled."""
 
 OTHER = "other"
 """Job of the stages after the loads."""

@@ -8,8 +8,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+from numba import njit, typeof
 
+from loadflow.numerics.entries import Entry, enter
 from loadflow.numerics.linked import LINKED, bare
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
@@ -23,7 +24,13 @@ from loadflow.rolling.rings._ring_kernels import (
     mix,
     shift_of,
 )
-from loadflow.rolling.rings._ring_rooms import newton_room, square_room, tangent_room, wave_room
+from loadflow.rolling.rings._ring_rooms import (
+    SMALL_ROOMS,
+    newton_room,
+    square_room,
+    tangent_room,
+    wave_room,
+)
 from loadflow.rolling.rings._ring_tangent import condense
 
 # Steps with a kept tangent that cost about as much as a new one; steps of lines have many slices.
@@ -148,12 +155,13 @@ def _remember(moves, changes, held):
 @njit(nogil=True, error_model="numpy", **LINKED)
 def _newton(
     x, load, waves, basis, law, reach, cap, tolerance, limit, factor, condensed,
-    moves, changes, held, known, rooms,
+    moves, changes, held, known, rooms, told,
 ):  # fmt: skip
     """Minimise energy - load·x from `x`.
 
-    Returns converged, residual, iterations, singular, and the rounding level of the residual,
-    which is formed only where the residual is not within its tolerance.
+    Fills `told` (6,): converged, residual, iterations, singular, the rounding level of the
+    residual, which is formed only where that is not within its tolerance, and the pairs held.
+    By itself, called by its place in memory: two processes can compile it and the series at once.
 
     Newton with the exact tangent, which is kept as long as it leads to the tolerance within few
     steps (`known` says whether a tangent from near `x` is there to begin with), a cap on the step
@@ -242,7 +250,18 @@ def _newton(
         singular = _free(basis, push, slope, across)
     else:
         singular = _free_lines(basis, slope, across, slant)
-    return answered, residual, iterations, singular, rounding, held
+    told[0], told[1], told[2] = answered, residual, iterations
+    told[3], told[4], told[5] = singular, rounding, held
+
+
+def newton_entry(waves, basis, law, reach):
+    """`_newton` for the rings of a bearing, as `solve_series` calls it."""
+    one, two, number, count = np.zeros(1), np.zeros((1, 1)), 0.0, 0
+    given = (
+        one, one, waves, basis, law, reach, number, number, count, two, two, two, two, count, True,
+        SMALL_ROOMS, one,
+    )  # fmt: skip
+    return Entry(_newton, tuple(typeof(value) for value in given))
 
 
 @bare(forceinline=True, fastmath={"reassoc", "nsz", "nnan"})
@@ -311,8 +330,10 @@ def _predict(loads, states, i, past, x):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, chunk):
+def solve_series(newton, loads, rigid, waves, basis, law, reach, cap, tolerance, limit, chunk):
     """Equilibrium for each load (n, 5) of lengths; warm start inside chunks of `chunk` cases.
+
+    `newton` is the `Entry` of `_newton`, see `newton_entry`.
 
     `rigid` holds what `loadflow.rolling._kernels.solve_series` takes beside the load, and the
     scale of the rigid unknowns: a cold start goes from the equilibrium with rigid rings. A case
@@ -326,7 +347,7 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
     converged, singular = np.zeros(n, np.bool_), np.zeros(n, np.bool_)
     rounding = np.zeros(n)
     x, load, condensed = np.zeros(size), np.zeros(5), np.zeros((5, 5))
-    whole, lying = np.zeros(size), np.zeros(5)
+    whole, lying, told = np.zeros(size), np.zeros(5), np.zeros(6)
     factor = square_room(size)
     moves, changes = np.zeros((_PAIRS, size)), np.zeros((_PAIRS, size))
     kinds = waves.mixing.shape[0] // basis.shape[0]
@@ -353,11 +374,12 @@ def solve_series(loads, rigid, waves, basis, law, reach, cap, tolerance, limit, 
             if attempt == 1 or attempt == 2:
                 for a in range(size):
                     x[a] = lying[a] / scale[a] if a < 5 else 0.0
-            ok, res, more, free, rounding[i], held = _newton(
+            enter(newton, (
                 x, whole, waves, basis, law, reach, cap, tolerance, limit, factor,
-                condensed, moves, changes, held, attempt == 0, rooms,
-            )  # fmt: skip
-            count += more
+                condensed, moves, changes, held, attempt == 0, rooms, told,
+            ))  # fmt: skip
+            ok, res, free, rounding[i] = told[0] > 0.0, told[1], told[3] > 0.0, told[4]
+            count, held = count + int(told[2]), int(told[5])
             if ok and (attempt == 1 or (attempt == 0 and not free)):
                 break
         for a in range(size):

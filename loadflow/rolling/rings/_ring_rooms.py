@@ -117,6 +117,18 @@ class NewtonRoom(NamedTuple):
     slant: Array
 
 
+_LINE, _TABLE = np.zeros(1), np.zeros((1, 1))
+
+SMALL_ROOMS = (
+    WaveRoom(_TABLE, _TABLE, _LINE, _TABLE, _TABLE),
+    TangentRoom(
+        _TABLE, _TABLE, _LINE, _TABLE, np.zeros((1, 1, 1)), np.zeros((1, 1), np.int64), _LINE,
+        *[_TABLE] * 5,
+    ),
+    NewtonRoom(_TABLE, *[_LINE] * 9, *[_TABLE] * 8),
+)  # fmt: skip
+"""Rooms of no bearing, for the types of what compiled functions hand on."""
+
 _filled = njit(nogil=True, **LINKED)(lanes_for)
 
 

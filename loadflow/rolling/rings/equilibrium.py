@@ -204,6 +204,7 @@ def solve_flexible(
     lengths = np.ascontiguousarray(loads * contacts.scale)  # else kernels compile for each order
     order = near_order(lengths, control.chunk)
     found = _ring_newton.solve_series(
+        _ring_newton.newton_entry(modes.waves, modes.basis, modes.law, modes.reach),
         lengths[order],
         (rigid, contacts.scale),
         modes.waves,
