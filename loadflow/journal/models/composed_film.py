@@ -264,7 +264,7 @@ class ShelledFilm(Composed):
 
 
 class SmoothFilm(Composed):
-    """One of smooth surfaces, laminar flow and one viscosity, without a supply: no loop has more."""
+    """One of smooth surfaces, laminar flow, one viscosity, no supply: loops leave the rest out."""
 
 
 class ComposedWork(NamedTuple):
