@@ -20,7 +20,7 @@ from loadflow.journal.heat import FilmHeat, Growth, Heat, RingGrowth
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, Verb, why_not
-from loadflow.journal.relief import Crown
+from loadflow.journal.relief import Contour, Crown
 from loadflow.journal.shapes import Arc, Lobes, TiltingPads
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.supply import Capillary, Groove, Supply
@@ -66,6 +66,7 @@ _LAWS = {
     for name, law in LAWS.items()
 }
 _GROOVE = Groove(1.57, arc=0.3, length=0.05, pressure=2e5)
+_OVAL = Contour((0.0, 1.571, 3.142, 4.712), (0.0, 1e-5, 0.0, 1e-5))
 _FED = Groove(1.57, arc=0.3, length=0.05, pressure=4e5, restrictor=Capillary(1.5e-3, 0.1))
 _ROUGH = Contact(AsperityContact(roughness=5e-7, contact_modulus=1e11, factor=1e-3))
 
@@ -73,6 +74,7 @@ PARTS: dict[str, Part] = _LAWS | {
     "arc": Part("bore", bearing={"shape": Arc(0.3, 3.0)}),
     "lobes": Part("bore", bearing={"shape": Lobes(3, preload=0.3)}),
     "tilting pads": Part("bore", bearing={"shape": TiltingPads(4, 1.2)}),
+    "contour": Part("bore", bearing={"relief": (_OVAL,)}),
     "crown": Part("bore", bearing={"relief": (Crown(1e-5, 0.02),)}),
     "supply": Part("supply", {"supply": Supply((_GROOVE,))}),
     "supply by a capillary": Part("supply", {"supply": Supply((_FED,))}),

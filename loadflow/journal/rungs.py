@@ -15,7 +15,8 @@ _FULL_WIDTH = "a shaped bore, an elastic shell or a shaft that tilts or bends"
 
 FEATURES = {
     "shape": "a shaped bore",
-    "relief": "a pocket or a contour in the bore",
+    "relief": "a recess in the bore",
+    "contour": "a contour of the bore",
     "crown": "a bore that widens toward its ends",
     "moment": _FULL_WIDTH,
     "tilt": _FULL_WIDTH,
@@ -38,9 +39,11 @@ FEATURES = {
 
 _LINE = {"moment", "tilt", "bend"}
 _SHELLS = {"shell", "local_shell"}
-_BORES = _LINE | _SHELLS | {"shape", "relief", "crown", "supply", "inlet", "grading"}
+_BORES = _LINE | _SHELLS | {"shape", "relief", "contour", "crown", "supply", "inlet", "grading"}
 _FLOW = {"contact", "turbulence", "pressure_coefficient"}
-_REDUCED = frozenset(_LINE | _SHELLS | _FLOW | {"shape", "crown", "heat", "film_heat", "supply"})
+_REDUCED = frozenset(
+    _LINE | _SHELLS | _FLOW | {"shape", "contour", "crown", "heat", "film_heat", "supply"}
+)
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from loadflow.errors import InputError
 from loadflow.journal import (
     Capillary,
     Contact,
+    Contour,
     Crown,
     Film,
     FilmHeat,
@@ -40,6 +41,7 @@ LOAD, TIME = (8e3, 1e3), np.linspace(0.0, 0.01, 3)
 ASKING = {
     "shape": ({}, {"shape": Lobes(3)}, {}),
     "relief": ({}, {"relief": (Recess(1.0, 0.3, depth=1e-5),)}, {}),
+    "contour": ({}, {"relief": (Contour((0.0, 3.0), (0.0, 1e-5)),)}, {}),
     "crown": ({}, {"relief": (Crown(height=1e-5, length=0.02),)}, {}),
     "moment": ({}, {}, {"moment": (1.0, 0.0)}),
     "tilt": ({}, {}, {"tilt": (1e-5, 0.0)}),

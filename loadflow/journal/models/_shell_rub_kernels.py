@@ -57,12 +57,14 @@ def _rub(film, work, q):
     for i in range(growth.shape[0]):
         for k in range(growth.shape[1]):
             lost = lost or not abs(growth[i, k]) <= _LARGEST
+    if lost:  # the film goes on as if nothing touched, to come back or to end
+        rub.on[0] = 0.0
+        rub.share[:] = 0.0
+        return
     for j in range(size):
         rub.alone[j] = amplitude[j]
-        amplitude[j] += 0.0 if lost else rub.share[j]
-    left, largest = np.nan, 0.0
-    if not lost:
-        left, largest = _missing(film, work, q)
+        amplitude[j] += rub.share[j]
+    left, largest = _missing(film, work, q)
     for _ in range(_STEPS):
         if not left > _EXACT * largest or not _linearise(film, work):
             break

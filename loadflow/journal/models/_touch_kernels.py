@@ -161,12 +161,8 @@ def touch_places(film, work, q):
             rises = weight * (rises - high_rises) - both, both, weight * high_high
             _press_beside(film, work, g, i, right, z, forces, rises)
             if give > 0.0:
-                low_x, low_y, high_x, high_y = (
-                    low_x * give,
-                    low_y * give,
-                    high_x * give,
-                    high_y * give,
-                )
+                low_x, low_y = low_x * give, low_y * give
+                high_x, high_y = high_x * give, high_y * give
                 for k in range(m):
                     value = yielding.values[g, k]
                     _add_modes(pressed[:, i, k], z, value * low_x, value * low_y)

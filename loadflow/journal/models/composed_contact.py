@@ -17,6 +17,7 @@ from loadflow.journal.film.grooves import groove_numbers
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed_film import RIGID, Rough, Yielding
+from loadflow.journal.models.composed_relief import depth_at
 from loadflow.journal.models.composed_supply import parted_at
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.models.width_modes import Nodes, on_places
@@ -31,14 +32,6 @@ _AROUND = np.radians(1.5)  # of a cell for each place, of Gauss, at which asperi
 _LEAST_AROUND = 3  # such places in a cell
 _TOUCHES = 8.5  # film parameter above which asperities on a shell carry nothing, to rounding
 _LONGEST = 10000  # entries of a table of these, 500 times the roughness
-
-
-def depth_at(bearing: JournalGeometry, z: Array) -> Array:
-    """What the relief widens the bore at `z`, shaft radii, in clearances; alike all around."""
-    depth = np.zeros(z.size)
-    for part in bearing.relief:
-        depth += part.added(np.zeros(1), z * bearing.radius, bearing.width)[0] / bearing.clearance
-    return depth
 
 
 def rough_of(

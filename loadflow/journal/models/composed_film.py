@@ -14,6 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film_model import Film
+from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models._ring_kernels import RingSystem, ring_system
 from loadflow.journal.models.composed_modes import Modes, ModesWork, make_modes_work
 from loadflow.journal.models.composed_supply import Border, Feeding, Held, make_border
@@ -209,6 +211,15 @@ class Regime(NamedTuple):
 
 
 LAMINAR = Regime(False, 0.0, 0.0, 0.0, 0.0)
+
+
+def regime_of(bearing: JournalGeometry, options: Film) -> Regime:
+    """Whether the flow may be turbulent."""
+    if options.turbulence is None:
+        return LAMINAR
+    lengths = bearing.radius, bearing.relative_clearance
+    at_one = options.turbulence.regime(*lengths, options.liquid).at(1.0)
+    return Regime(True, *at_one)
 
 
 class Composed(NamedTuple):

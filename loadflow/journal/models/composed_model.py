@@ -22,18 +22,23 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_gap_kernels import MEAN, OPEN
-from loadflow.journal.models.composed_contact import depth_at, rough_of, yielding_of
+from loadflow.journal.models.composed_contact import rough_of, yielding_of
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.composed_film import (
-    LAMINAR,
     Composed,
     ComposedWork,
-    Places,
-    Regime,
     ShelledFilm,
     SmoothFilm,
     lanes_of,
     make_work,
+    regime_of,
+)
+from loadflow.journal.models.composed_relief import (
+    contoured,
+    least_gap,
+    places_of,
+    resolves_relief,
+    with_contours,
 )
 from loadflow.journal.models.composed_shell import shell_of
 from loadflow.journal.models.composed_supply import (
@@ -63,9 +68,7 @@ Array = NDArray[np.float64]
 HALF_POINTS = (4, 7, 10, 14, 20)  # across half of an even film; three miss 2 % of a peak at contact
 POINTS = (6, 14, 20, 28, 40)  # across the whole width: as many even polynomials as odd ones
 LEVELS = range(2)
-_ON_A_CROWN = 3  # points that either end of a relief asks for: two leave its side flow 8 % off
-_WIDENED = 0.01  # of the largest depth
-_BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
+_HALVINGS = 24  # of a place of a standing shaft
 _ROOM = 0.02  # gap, in clearances, that the first position of a smooth shaft must leave
 _SHORTER = 1.0 / 3.0  # of the gap of a rigid bore that asks for the same cells
 _THINNER = 2.0  # times a gap in a rigid bore, that one in a shell may be
@@ -100,7 +103,7 @@ class ComposedFilm:
     @property
     def whole(self) -> bool:
         """Whether the whole width is solved."""
-        return _whole(self.options, self.line)
+        return _whole(self.bearing, self.options, self.line)
 
     @property
     def size(self) -> int:
@@ -151,15 +154,18 @@ class ComposedFilm:
         places[:, :2] = estimates(self.bearing, self.units, force, speed)
         if self.size == 2:
             places[:, 2:] = lines[:, :2]
+        standing, toward = speed == 0.0, force / np.maximum(size, 1e-300)[:, None]
         if self.film.ring.shaped:
-            for place, line in zip(places, lines):
-                place[:2] *= self._share_inside(place, line[2:])
+            for n, (place, line) in enumerate(zip(places, lines)):
+                if standing[n] and self.film.rough.size > 0.0:
+                    alone = float(self._touching_at(size[n]))
+                    place[:2] = self._lying(toward[n], alone, place, line[2:])
+                else:
+                    place[:2] *= self._share_inside(place, line[2:])
             return places
-        standing = speed == 0.0
         if self.film.rough.size > 0.0:
             alone = self._touching_at(size)
             nearer = standing | (np.hypot(*places[:, :2].T) > alone)
-            toward = force / np.maximum(size, 1e-300)[:, None]
             places[nearer, :2] = (alone[:, None] * toward)[nearer]
         else:
             places[standing, :2] = 0.0
@@ -172,6 +178,16 @@ class ComposedFilm:
                 place[:2] *= 0.9
         return places
 
+    def _lying(self, toward: Array, alone: float, place: Array, bend: Array) -> Array:
+        """Where along a load a shaft has the gap that it has at a ratio `alone` in a round bore."""
+        low, high = 0.0, 2.0
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            there = np.append(middle * toward, place[2:])
+            far = self.least(there[None], bend[None])[0] > 1.0 - alone
+            low, high = (middle, high) if far else (low, middle)
+        return low * toward
+
     def _share_inside(self, place: Array, bend: Array) -> float:
         """Share of a first position (4,) that leaves a gap in a shaped bore; 0 if none does."""
         for share in SHARES:
@@ -180,7 +196,7 @@ class ComposedFilm:
                 return share
         return 0.0
 
-    def _touching_at(self, load: Array) -> Array:
+    def _touching_at(self, load: Array | float) -> Array:
         """Eccentricity ratios (n,) at which asperities alone carry loads (n,), N."""
         rough = self.film.rough
         carried = rough.table[0] * rough.weights.sum()
@@ -223,6 +239,8 @@ class ComposedFilm:
     def least(self, positions: Array, bends: Array) -> Array:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
+        if contoured(self.bearing):
+            return least_gap(self.bearing, centres, self.film.places.z)
         gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
         return np.asarray((gaps + self.film.places.depth).min(axis=1))
 
@@ -329,7 +347,7 @@ def build(
     """
     units = units_of(bearing, options, speed)
     half = float(units.mesh.z_edges[-1])
-    whole = _whole(options, line)
+    whole = _whole(bearing, options, line)
 
     def layout(number: int, few: int | None) -> Nodes:
         beside = nodes_beside(options.supply, bearing, whole, number, few)
@@ -338,15 +356,16 @@ def build(
         plain, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
         return plain(half, across or points[number], None if few is None else points[few])
 
-    more = 0 if _resolves_relief(bearing, layout(0, None).z) else 1
+    more = 0 if resolves_relief(bearing, layout(0, None).z) else 1
     nodes = layout(level + more, None if at_rest else more)
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
         ring = lobed(ring, bearing, options)
     held = held_points(units, options, nodes, ring)
     feeding = feeding_of(units, held, 0.5 if whole else 1.0)
-    ring = ring._replace(groove=ring.groove | held.columns)
-    places = _places(bearing, nodes.z, half, whole)
+    contour = contoured(bearing)
+    ring = ring._replace(groove=ring.groove | held.columns, shaped=ring.shaped or contour)
+    places = places_of(bearing, nodes.z, half, whole)
     (give, modes), uneven = shell_of(bearing, options, ring, nodes, whole), EVEN
     grows = viscosity is not None and viscosity.growth is not None
     yielding = yielding_of(bearing, options, give, whole, nodes, ring, grows)
@@ -354,31 +373,18 @@ def build(
         uneven = viscosity.at(nodes.z, yielding.z, ring.back, ring.width)
         places = places._replace(depth=places.depth + viscosity.mean_growth(places.z))
         yielding = yielding._replace(depth=yielding.depth + viscosity.mean_growth(yielding.z))
+    if contour:
+        uneven = with_contours(uneven, bearing, ring, nodes.z, yielding.z)
     thickening = thickening_of(options.liquid, units.p_edge)
     effects = options.contact, options.turbulence, options.supply
     smooth = SmoothFilm if effects == (None, None, None) and not thickening.on else Composed
     film = (ShelledFilm if modes.on else smooth)(
         ring, nodes, places, lanes_of(nodes, places.depth), give, modes,
-        rough_of(bearing, options.contact, whole, units), yielding, _regime(bearing, options), held,
-        feeding, uneven, thickening,
+        rough_of(bearing, options.contact, whole, units), yielding, regime_of(bearing, options),
+        held, feeding, uneven, thickening,
     )  # fmt: skip
     work = make_work(ring.width.size, nodes, places.z.size, feeding, modes)
     return ComposedFilm(bearing, options, line, units, film, work)
-
-
-def _places(bearing: JournalGeometry, points: Array, half: float, whole: bool) -> Places:
-    """Points across a width of twice `half`, and those between at which a relief is narrowest."""
-    if not bearing.relief:
-        return Places(points, np.zeros(points.size))
-    z = np.append(points, np.linspace(-half if whole else 0.0, half, _BETWEEN))
-    return Places(z, depth_at(bearing, z))
-
-
-def _resolves_relief(bearing: JournalGeometry, points: Array) -> bool:
-    """Whether enough of the points across lie where a relief widens the bore."""
-    depth = np.abs(depth_at(bearing, points))
-    widened = (points > 0.0) & (depth > _WIDENED * depth.max())
-    return not depth.any() or int(widened.sum()) > _ON_A_CROWN
 
 
 def levels_at_rest(options: Film) -> range:
@@ -434,16 +440,8 @@ def rubs(rows: Array, force: Array) -> NDArray[np.bool_]:
     return np.asarray(contact_share(rows[:, [at.CONTACT_X, at.CONTACT_Y]], force) > _RUBS)
 
 
-def _whole(options: Film, line: Line) -> bool:
+def _whole(bearing: JournalGeometry, options: Film, line: Line) -> bool:
     """Whether both halves of the width differ."""
-    shell = options.shell
-    return not (line.straight and (shell is None or shell.symmetric_on(options.cells[1])))
-
-
-def _regime(bearing: JournalGeometry, options: Film) -> Regime:
-    """Whether the flow may be turbulent."""
-    if options.turbulence is None:
-        return LAMINAR
-    lengths = bearing.radius, bearing.relative_clearance
-    at_one = options.turbulence.regime(*lengths, options.liquid).at(1.0)
-    return Regime(True, *at_one)
+    shell, relief = options.shell, bearing.relief
+    alike = line.straight and all(part.symmetric(bearing.width) for part in relief)
+    return not (alike and (shell is None or shell.symmetric_on(options.cells[1])))

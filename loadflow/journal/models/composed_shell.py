@@ -71,10 +71,8 @@ def shell_of(
     for n, beside in enumerate(nodes.joints):  # of no width, in the gap of its inner point
         shares[inner + n] = shares[beside]
     pressing = shares[:inner] * nodes.weights[:inner, None] / np.diff(z_edges)
-    shapes, rubbed = (
-        split.shapes @ shares.T / bearing.clearance,
-        np.zeros((0, *split.shapes.shape[1:2], nodes.z.size)),
-    )
+    shapes = split.shapes @ shares.T / bearing.clearance
+    rubbed = shapes[:0]
     if options.contact is not None:
         areas = np.outer(ring.width, np.diff(z_edges)) * bearing.radius**2
         rubbed = (split.pressed / areas) @ shares.T / (1.0 if whole else 2.0)

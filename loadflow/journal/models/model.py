@@ -156,11 +156,12 @@ def _asked(
 ) -> dict[str, Any]:
     """What a model must know, of `FEATURES`, and its value."""
     own = RUNGS[film.rung].law is not None  # such a model has its own inlet, and no mesh
+    cut = any(any(part.steps(bearing.width)) for part in bearing.relief)
     crowned = all(part.even_around for part in bearing.relief)
     wanted: dict[str, Any] = {
         _kind_of_heat(film, verb): film.heat,
         "shape": bearing.shape if bearing.shape.segments else None,
-        "crown" if crowned else "relief": bearing.relief or None,
+        "relief" if cut else "crown" if crowned else "contour": bearing.relief or None,
         "moment": line.moment,
         "tilt": line.tilt,
         "bend": line.bend,
@@ -190,9 +191,16 @@ def _pairs(
         pressure = bearing.shape.groove_pressure
         at_ends = 'that of the bearing ends on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
+    if film.rung == "reduced" and verb == "in_motion":
+        uneven = not all(part.even_around for part in bearing.relief)
+        alike = 'one that is alike all around for pads in motion on rung = "reduced"'
+        yield "relief", bearing.relief, pads and uneven, alike
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(verb, film, bearing)
     if film.rung == "reduced" and film.shell is not None and not film.shell.local:
+        fed = verb == "in_motion" and film.supply is not None and film.law.kind == "mass-conserving"
+        words = "None beside a supply with MassConserving in motion in such a shell"
+        yield "contact", film.contact, fed, words
         cells = 'one that is known on every grid, in a shaped bore on rung = "reduced"'
         apart = bool(bearing.shape.segments) and not film.shell.any_grid
         yield "shell", film.shell, apart, cells

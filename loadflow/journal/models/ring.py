@@ -125,7 +125,7 @@ def lobed(ring: Ring, bearing: JournalGeometry, options: Film) -> Ring:
 
     Cells on the segments end where grooves of a supply do.
     """
-    bore, around = Bore.of(bearing), options.cells[0]
+    bore, around = replace(Bore.of(bearing), relief=()), options.cells[0]  # of points across
     fed = options.supply.grooves if options.supply is not None else ()
     marks, _ = groove_marks(fed, around, bearing.radius)
     segments = bore.segments
