@@ -91,7 +91,7 @@ def extremes(samples: xr.Dataset, parked: bool = False, starts: bool = False) ->
         values, meaning = np.where(turns, np.nan, samples["load"].values), "largest load standing"
         found |= _extreme(samples, "standing_load", values, np.nanargmax, "N", meaning)
     found |= _grid_errors(samples, floats)
-    if samples.attrs.get("motion") == "transient" and "time" in samples:
+    if samples.attrs.get("motion") == "transient" and {"time", "eccentricity"} <= set(samples):
         share = (weight * whirling(samples)).where(counted(samples), 0.0).sum()
         whole = weight.where(counted(samples), 0.0).sum()
         found["whirl_share"] = share / whole, "1", "share of the time in half-speed whirl"
