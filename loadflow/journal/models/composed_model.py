@@ -158,8 +158,8 @@ class ComposedFilm:
         if self.film.ring.shaped:
             for n, (place, line) in enumerate(zip(places, lines)):
                 if standing[n] and self.film.rough.size > 0.0:
-                    alone = float(self._touching_at(size[n]))
-                    place[:2] = self._lying(toward[n], alone, place, line[2:])
+                    alone = self._touching_at(size[n : n + 1])
+                    place[:2] = self._lying(toward[n], alone.item(), place, line[2:])
                 else:
                     place[:2] *= self._share_inside(place, line[2:])
             return places
@@ -196,12 +196,12 @@ class ComposedFilm:
                 return share
         return 0.0
 
-    def _touching_at(self, load: Array | float) -> Array:
+    def _touching_at(self, load: Array) -> Array:
         """Eccentricity ratios (n,) at which asperities alone carry loads (n,), N."""
         rough = self.film.rough
         carried = rough.table[0] * rough.weights.sum()
         ratios = rough.first + rough.step * np.arange(carried.size)
-        return np.interp(load, carried, ratios)
+        return np.asarray(np.interp(load, carried, ratios))
 
     def resolves(self, position: Array) -> bool:
         """Whether the cells around resolve the narrowest gap of a rigid shell."""
