@@ -352,13 +352,34 @@ def refine(choice: Choice, names: Iterable[str]) -> Choice:
     return replace(choice, scene=scene, reasons=reasons, errors=errors)
 
 
-def rungs_up(scene: Scene, name: str, quantity: str, difference: float, allowed: float) -> int:
+def rungs_up(scene: Scene, name: str, quantity: str, error: float, allowed: float) -> int:
     """How many rungs finer a model has to be, for a quantity to be within what is allowed.
 
-    The next rung moves it by `difference`. By the errors e of the ladder, whose order is that of
-    the cells or steps, rung k is then off by that times e_k/(e_0 - e_1). The finest of those
-    that were measured, if none is good enough; 1 where the ladder does not tell.
+    It is off by `error`, and by the errors e of the ladder, whose order is that of the cells or
+    steps, rung k is off by that times e_k/e_0. The finest of those that were measured, if none is
+    good enough; 1 where the ladder does not tell.
     """
+    known = _errors_up(scene, name, quantity)
+    if len(known) < 2 or not np.isfinite([error, known[0]]).all():
+        return 1
+    good = np.flatnonzero(error * np.array(known[1:]) / known[0] <= allowed)
+    return int(good[0]) + 1 if good.size else len(known) - 1
+
+
+def error_of(scene: Scene, name: str, quantity: str, moved: float) -> float:
+    """By how much a model is off that the next finer one moves by so much.
+
+    That is e_0 - e_1 of the errors of the ladder, of e_0 in all. What it `moved` where the ladder
+    does not tell, as at its finest rung.
+    """
+    known = _errors_up(scene, name, quantity)
+    if len(known) < 2 or not np.isfinite(known[0]):
+        return moved
+    return moved * known[0] / (known[0] - known[1])
+
+
+def _errors_up(scene: Scene, name: str, quantity: str) -> list[float]:
+    """Errors of the ladder of a model and of the finer ones, as far as they fall."""
     found: list[float] = []
     one: Scene | None = scene
     while one is not None and (known := measured(one, name)) is not None:
@@ -367,11 +388,7 @@ def rungs_up(scene: Scene, name: str, quantity: str, difference: float, allowed:
             break
         found.append(error)
         one = finer(one, name)
-    if len(found) < 2 or not np.isfinite([difference, found[0]]).all():
-        return 1
-    expected = difference * np.array(found[1:]) / (found[0] - found[1])
-    good = np.flatnonzero(expected <= allowed)
-    return int(good[0]) + 1 if good.size else len(expected)
+    return found
 
 
 def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:

@@ -361,7 +361,7 @@ def _case_table(data: xr.Dataset) -> Table:
 
 
 def _check_section(check: xr.Dataset) -> Section:
-    """Tabulate how far the answers of sampled cases move with better models."""
+    """Tabulate how far off the answers of sampled cases are, by better models."""
     doubtful = ~(check["difference"] <= check["allowed"].fillna(WARN))
     rows = [
         [
@@ -370,11 +370,12 @@ def _check_section(check: xr.Dataset) -> Section:
         ]
         for k, change in enumerate(check["difference"].values)
     ]
-    heads = ["stage", "quantity", "case", "against", "largest change"]
+    heads = ["stage", "quantity", "case", "against", "largest error"]
     bad = frozenset(map(int, np.flatnonzero(doubtful)))
     text = (
         "A few load cases of this run, solved again by better models. Marked: more than the "
-        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model has."
+        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model has. "
+        "A film is off by what finer cells change, and by what still finer ones are expected to."
     )
     return Section("Check", text, [Table("", heads, rows, bad)])
 
