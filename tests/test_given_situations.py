@@ -9,8 +9,9 @@ from loadflow.scene.cases import Case, design_load_cases, list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.stages.effects.clearances import CLEARANCES
 from loadflow.stages.effects.film import MOTION
-from loadflow.stages.effects.situation import situation
+from loadflow.stages.effects.situation import points, situation
 from loadflow.stages.turning import always_turns, is_parked
+from loadflow.wind.cases import factor_of_maximum
 
 
 def scene_of(*files):
@@ -37,6 +38,8 @@ def cube(folder, dlc):
     [
         ("dlc1.1_v12_s1.outb", True),
         ("nrel5mw_dlc31_v12_s1.outb", False),
+        ("dlc4.1b_v12_s1.outb", False),
+        ("dlc1.3a_v12_s1.outb", True),
         ("nrel5mw_startup_v12.outb", False),
         ("nrel5mw_idling_v12.outb", False),
         ("nrel5mw_steady_v12.outb", True),
@@ -69,3 +72,12 @@ def test_motion_counts_in_full_where_given_series_start(tmp_path):
 def test_a_shaft_that_a_word_calls_parked_stands():
     assert is_parked(Case("parked", 42.5, 1))
     assert not is_parked(Case("idling", 12.0, 1))
+
+
+def test_variants_and_words_have_the_state_and_the_factor_of_their_load_case():
+    """Files name variants, such as 6.2a, which the table of the standard does not list."""
+    assert is_parked(Case("6.2a", 42.5, 1))
+    assert factor_of_maximum("6.2a") == factor_of_maximum("6.2") == 1.1
+    alike = [Case(dlc, 8.0, 1) for dlc in ("6.4", "6.4a", "idling", "idle")]
+    assert len(points(alike)) == 1
+    assert len(points([*alike, Case("1.1", 8.0, 1)])) == 2

@@ -34,7 +34,7 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """A quantity of all candidates; `limit` is that of all that have one, where it is the same."""
+    """A quantity of all candidates; `limit` is that of all that have it, where it is the same."""
 
     name: str
     unit: str
@@ -103,7 +103,8 @@ def _row(key: str, data: Mapping[str, Any]) -> Row | None:
     cells = [_cell(number, name, about["at_most"]) for number, name in zip(numbers, names)]
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
-    limits = {cell.limit for cell in cells if cell.state or cell.around}
+    told = (cell for cell, number in zip(cells, numbers) if number and number["value"] is not None)
+    limits = {cell.limit for cell in told}
     shared = limits.pop() if len(limits) == 1 else ""
     own = [replace(cell, limit="") for cell in cells] if shared else cells
     return Row(about["name"], about["unit"], shared, tuple(own))

@@ -224,21 +224,24 @@ def written_places(candidate: Candidate) -> dict[str, Any]:
 
 
 def written_collars(candidate: Candidate) -> dict[str, Any]:
-    """Data of the thrust collars of a candidate by place, each in full."""
-    found = {} if candidate.thrust is None else candidate.thrust.collars
-    return {
+    """Data of the thrust collars of a candidate by place, each in full, as a scene writes it."""
+    if candidate.thrust is None:
+        return {}
+    data = candidate.thrust.model_dump(mode="json", exclude_unset=True, exclude_none=True)
+    data["bearings"] = {
         place: {"kind": one.kind}
         | one.model_dump(mode="json", exclude_unset=True, exclude_none=True)
-        for place, one in found.items()
+        for place, one in candidate.thrust.collars.items()
     }
+    return places_of(None, None, data)
 
 
 def with_collars(places: Mapping[str, Any], collars: Mapping[str, Any]) -> dict[str, Any]:
-    """Bearings by place, with the collars that stand beside some of them."""
-    return {
-        place: [data, copy.deepcopy(collars[place])] if place in collars else data
-        for place, data in places.items()
-    }
+    """Bearings by place, with the collars that stand beside some of them, or alone."""
+    found = dict(places)
+    for place, data in copy.deepcopy(dict(collars)).items():
+        found[place] = [places[place], data] if place in places else data
+    return found
 
 
 def default_keys(places: Mapping[str, Any]) -> dict[str, Variation]:

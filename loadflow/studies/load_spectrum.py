@@ -19,7 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import moment_governs
 from loadflow.studies.run_lifetime import case_shares, energy_per_year
-from loadflow.wind.cases import LOAD_CASES, factor_of_maximum, stands_or_starts
+from loadflow.wind.cases import factor_of_maximum, row_of, stands_or_starts
 
 Floats = NDArray[np.float64]
 
@@ -156,7 +156,7 @@ def _series(loads: xr.Dataset, shaft: xr.Dataset, share: float) -> dict[str, Any
     """All samples of one load case."""
     speed = loads["speed"].values.astype(float)
     dlc = str(loads["dlc"].item())
-    row = LOAD_CASES.get(dlc)
+    row = row_of(dlc)
     alike: Mapping[str, Any] = {
         "weight": share / speed.size,
         "load_factor": factor_of_maximum(dlc),

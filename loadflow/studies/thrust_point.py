@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -65,7 +66,8 @@ def thrust_point(bearing: AnyAxial, force: Load, moment: Load, speed: float) -> 
         raise InputError("a thrust bearing takes the force along the shaft alone")
     full = np.array([*moment, 0.0])
     answer = bearing.solve(np.asarray(force, float), full, speed)
-    limit = bearing.limits.pressure_at(bearing.limits.material[0][0])
+    kelvin = getattr(answer, "temperature", math.nan)  # cones have no heat
+    limit = bearing.limits.pressure_at(kelvin if math.isfinite(kelvin) else 0.0)
     rows = {
         name: (getattr(answer, name), units, meaning)
         for name, (_, units, meaning) in answer.told().items()

@@ -22,7 +22,7 @@ from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.turning import runs_throughout
 from loadflow.studies.uncarried import SLIGHT, has_collar, uncarried
 from loadflow.verdict import Verdict
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.wind.cases import row_of
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -366,9 +366,8 @@ def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) ->
 
 def _static(limits: RollingLimits, subject: str, table: xr.Dataset) -> Verdict:
     """Static rating over the design load: loads with the factor of their load case in them."""
-    ultimate = np.array(
-        [d not in LOAD_CASES or LOAD_CASES[d].kind == "U" for d in table["dlc"].values.tolist()]
-    )
+    rows = map(row_of, table["dlc"].values.tolist())
+    ultimate = np.array([row is None or row.kind == "U" for row in rows])
     judged = table.isel(case=ultimate) if ultimate.any() else table
     value, case, time = _worst(judged, "bearing_design_safety", "least")
     row = judged.sel(case=case) if case else judged.isel(case=0)
@@ -378,7 +377,7 @@ def _static(limits: RollingLimits, subject: str, table: xr.Dataset) -> Verdict:
         note += "; the normal factor, as 1.1 is not extrapolated (1.25 if it were)"
     if not ultimate.any():
         note += "; no load case of ultimate loads in this run"
-    elif dlc not in LOAD_CASES:
+    elif row_of(dlc) is None:
         note += f"; IEC 61400-1 has no load case {dlc!r}"
     limit = limits.static_safety
     return Verdict(

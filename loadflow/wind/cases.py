@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, floor
+from string import ascii_lowercase
 from typing import Literal
 
 from loadflow.errors import InputError
@@ -175,9 +176,21 @@ STARTS_IN_WORDS = frozenset((
 """Load cases without a number, as names of files say them, in which the shaft stands or starts."""
 
 
+def row_of(dlc: str) -> LoadCase | None:
+    """Row of a load case or of a variant of it, as files name them; None that the table lacks.
+
+    Examples
+    --------
+    >>> row_of("6.2a").dlc, row_of("9.9"), row_of("steady")
+    ('6.2', None, None)
+    """
+    return LOAD_CASES.get(dlc.rstrip(ascii_lowercase))
+
+
 def factor_of_maximum(dlc: str) -> float:
     """γ_f of the largest load of a series of a load case; 1 for one that the table lacks."""
-    return LOAD_CASES[dlc].factor_of_maximum if dlc in LOAD_CASES else 1.0
+    row = row_of(dlc)
+    return 1.0 if row is None else row.factor_of_maximum
 
 
 def stands_or_starts(dlc: str) -> bool:
@@ -188,9 +201,8 @@ def stands_or_starts(dlc: str) -> bool:
     >>> stands_or_starts("3.1"), stands_or_starts("startup"), stands_or_starts("steady")
     (True, True, False)
     """
-    if dlc in LOAD_CASES:
-        return LOAD_CASES[dlc].stands_or_starts
-    return dlc in STARTS_IN_WORDS
+    row = row_of(dlc)
+    return dlc in STARTS_IN_WORDS if row is None else row.stands_or_starts
 
 
 def starts_or_stops(dlc: str) -> bool:
@@ -201,8 +213,9 @@ def starts_or_stops(dlc: str) -> bool:
     >>> starts_or_stops("3.1"), starts_or_stops("shutdown"), starts_or_stops("idle")
     (True, True, False)
     """
-    if dlc in LOAD_CASES:
-        return LOAD_CASES[dlc].stands_or_starts and LOAD_CASES[dlc].operating
+    row = row_of(dlc)
+    if row is not None:
+        return row.stands_or_starts and row.operating
     return dlc in STARTS_IN_WORDS - {*STANDING, "idle"}
 
 
@@ -211,10 +224,11 @@ def parked(dlc: str) -> bool:
 
     Examples
     --------
-    >>> parked("6.1"), parked("parked"), parked("idling")
-    (True, True, False)
+    >>> parked("6.1"), parked("6.2a"), parked("parked"), parked("idling")
+    (True, True, True, False)
     """
-    return LOAD_CASES[dlc].parked if dlc in LOAD_CASES else dlc == "parked"
+    row = row_of(dlc)
+    return dlc == "parked" if row is None else row.parked
 
 
 def load_case(dlc: str) -> LoadCase:

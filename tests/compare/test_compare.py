@@ -736,13 +736,14 @@ def test_limits_that_differ_stand_in_each_cell():
 def test_the_limit_of_some_stands_beside_them_alone():
     """A number without a limit must not seem to break that of the others."""
     key, data = "eccentricity_ratio", {"quantities": named_quantities()}
-    held, free = Number(0.9, "–", limit=0.95, holds=True), Number(1.1, "–", low=1.0, high=1.1)
-    both = [
-        {"name": name, "numbers": {key: listed(key, number)}}
-        for name, number in (("bore", held), ("pads", free))
-    ]
-    row = _row(key, data | {"candidates": both})
-    assert (row.limit, [cell.limit for cell in row.cells]) == ("", ["limit ≤ 0.95", ""])
+    held = Number(0.9, "–", limit=0.95, holds=True)
+    for free in (Number(1.1, "–", low=1.0, high=1.1), Number(1.1, "–")):
+        both = [
+            {"name": name, "numbers": {key: listed(key, number)}}
+            for name, number in (("bore", held), ("pads", free))
+        ]
+        row = _row(key, data | {"candidates": both})
+        assert (row.limit, [cell.limit for cell in row.cells]) == ("", ["limit ≤ 0.95", ""])
 
 
 def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_why(tmp_path):

@@ -246,6 +246,25 @@ def test_a_design_has_the_collar_of_its_candidate_and_none_of_the_scene():
             assert best.thrust.bearings == {}
 
 
+def test_a_design_keeps_what_all_collars_share_and_one_alone_at_its_place():
+    """Rung, grid, motion and tilt are keys of the section, and are written at the collars."""
+    rows = {"pads": 8, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.7, "taper": 1e-4}
+    collar = {"kind": "thrust", "rung": "curve", "grid": [24, 12], "tilt": True, "geometry": rows}
+    size = {"diameter": 1.4, "width": 1.3, "relative_clearance": 1e-3}
+    journal = {"kind": "journal", "geometry": size}
+    beams = {"two_point": {}}
+    for there in ([journal, collar], collar):
+        candidates = {"own": {"N": journal, "N2": there}}
+        scene = make_scene({"name": "quick", "shaft": beams, "candidates": candidates})
+        own = scene.candidates["own"]
+        space = space_of(scene, own, Design(keys={"N.geometry.width": [0.8, 1.4]}))
+        one, _ = space.at([1.0])
+        text = scene_with_bearings(scene, "best", *space.data([1.0]), "words")
+        best = make_scene(tomllib.loads(text))
+        assert one.thrust.changed == best.thrust.changed == own.thrust.changed
+        assert one.thrust == best.thrust == own.thrust
+
+
 def test_a_search_over_cones_is_refused_by_name():
     scene = make_scene({"name": "cones", "shaft": {"moment": {}},
                         "candidates": {"conical-pair": {}}})  # fmt: skip

@@ -29,6 +29,7 @@ from loadflow.studies.compare_margins import margin_of
 from loadflow.studies.compare_pads import pad_margins, value_of
 from loadflow.studies.deviations import Built, _tilted, tolerances_of
 from loadflow.studies.pad_films import PadFilms, pad_films
+from loadflow.studies.thrust_point import thrust_point
 from loadflow.studies.tolerance_bands import _samples_of_pads, cheap_numbers
 
 LANDS = {"pads": 6, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.9, "taper": 1e-4}
@@ -271,3 +272,14 @@ def test_bands_of_a_collar_hold_its_pressure_against_the_material_as_warm_as_its
     always, at_last = factor([500.0, 7e6]), factor([300.0, 7e6], [hot, 3.5e6], [500.0, 3.5e6])
     assert at_last < 0.8 * always
     assert at_last == pytest.approx(factor([500.0, 3.5e6]), rel=0.05)
+
+
+def test_a_point_of_a_collar_has_the_limit_of_the_material_as_warm_as_its_films():
+    material = [300.0, 7e6], [400.0, 1e6]
+    warm, cold = (
+        thrust_point(one, (0.0, 0.0, 5e5), (0.0, 0.0), 1.2)
+        for thrust in [collar(limits={"material": material})]
+        for one in (thrust.bearings["N2"], thrust.bearings["N2"].cool())
+    )
+    assert float(cold["pressure_limit"]) == 7e6
+    assert 1e6 < float(warm["pressure_limit"]) < 6.9e6

@@ -30,7 +30,7 @@ from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
 from loadflow.stages.turning import SLOWEST, is_parked
 from loadflow.turbines import Turbine, load_turbine
-from loadflow.wind.cases import LOAD_CASES, STANDING
+from loadflow.wind.cases import STANDING, row_of
 
 Floats = np.ndarray
 
@@ -247,7 +247,8 @@ def points(cases: Iterable[Case]) -> list[Case]:
 
 def _state(case: Case) -> str:
     """What the rotor does throughout: it is parked, has a blade stuck besides, idles; or none."""
-    event = LOAD_CASES[case.dlc].events[0] if case.dlc in LOAD_CASES else case.dlc
+    row = row_of(case.dlc)
+    event = {"idle": "idling"}.get(case.dlc, case.dlc) if row is None else row.events[0]
     return event if event in STANDING else ""
 
 
