@@ -240,7 +240,7 @@ class ComposedFilm:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
         if contoured(self.bearing):
-            return least_gap(self.bearing, centres, self.film.places.z)
+            return least_gap(self.bearing, centres, self.film.places)
         gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
         return np.asarray((gaps + self.film.places.depth).min(axis=1))
 
