@@ -158,8 +158,8 @@ class ComposedFilm:
         if self.film.ring.shaped:
             for n, (place, line) in enumerate(zip(places, lines)):
                 if standing[n] and self.film.rough.size > 0.0:
-                    alone = float(self._touching_at(size[n]))
-                    place[:2] = self._lying(toward[n], alone, place, line[2:])
+                    ratio = float(self._touching_at(size[n : n + 1])[0])
+                    place[:2] = self._lying(toward[n], ratio, place, line[2:])
                 else:
                     place[:2] *= self._share_inside(place, line[2:])
             return places
@@ -196,7 +196,7 @@ class ComposedFilm:
                 return share
         return 0.0
 
-    def _touching_at(self, load: Array | float) -> Array:
+    def _touching_at(self, load: Array) -> Array:
         """Eccentricity ratios (n,) at which asperities alone carry loads (n,), N."""
         rough = self.film.rough
         carried = rough.table[0] * rough.weights.sum()
