@@ -374,8 +374,8 @@ def _check_section(check: xr.Dataset) -> Section:
     bad = frozenset(map(int, np.flatnonzero(doubtful)))
     text = (
         "A few load cases of this run, solved again by better models. Marked: more than the "
-        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model has. "
-        "A film is off by what finer cells change, and by what still finer ones are expected to."
+        f"accuracy asked for, or {percent(WARN)} where none is, and films that no better model "
+        "has. A film is off by what finer cells change, and what still finer ones are expected to."
     )
     return Section("Check", text, [Table("", heads, rows, bad)])
 

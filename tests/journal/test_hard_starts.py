@@ -15,6 +15,7 @@ from benchmarks.robustness import families
 from loadflow.errors import SolverError
 from loadflow.journal import (
     Contact,
+    Film,
     Groove,
     Guembel,
     JournalBearing,
@@ -25,9 +26,11 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.models import grid, reduced
+from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
+from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.journal.warm_orbit import FEW
 from loadflow.tribology import AsperityContact
 
@@ -342,3 +345,18 @@ def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
     with pytest.raises(SolverError, match=r"orbit cannot start: .* residual"):
         drawn("composed", 527)[1]()
     assert [around for around, _ in asked] == [60]
+
+
+@pytest.mark.parametrize(("work", "tried"), [(1e4, [60, 120, 240]), (2e6, [60])])
+def test_an_orbit_that_was_not_tried_on_more_cells_says_which_to_ask_for(work, tried):
+    asked: list[int] = []
+
+    def path(film: Film) -> Any:
+        asked.append(film.cells[0])
+        raise OrbitStopped("orbit stops", 2.5, work)
+
+    with pytest.raises(OrbitStopped, match="orbit stops") as told:
+        on_enough_cells(Film(Lubricant(0.05), grid=(60, 20)), path, 240)
+    assert asked == tried
+    assert told.value.time == 2.5
+    assert ("grid = [120, 20]" in str(told.value)) == (tried == [60])

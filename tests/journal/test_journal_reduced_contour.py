@@ -24,6 +24,9 @@ from loadflow.journal import (
     ThickShell,
     TiltingPads,
 )
+from loadflow.journal.line import Line
+from loadflow.journal.models.composed_model import build
+from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -146,6 +149,20 @@ def test_stiffness_is_the_slope_of_the_force(alone):
         slope = (force(here + way) - force(here - way)) / (2.0 * step)
         scale = np.abs(state.stiffness[:2, :2]).max()
         np.testing.assert_allclose(slope, state.stiffness[:2, axis], atol=1e-5 * scale)
+
+
+def test_the_narrowest_gap_of_a_contour_knows_growth_by_heat():
+    """Where a shaft may begin is asked by it."""
+    film, grown = pair()[0], 0.1
+    z = np.array([0.0, 0.25, 0.5])
+    cells = np.ones((film.grid[0], z.size))
+    speed, place, bend = np.array([SPEED]), np.array([[0.5, -0.2, 0.0, 0.0]]), np.zeros((1, 2))
+    for bore in (bearing(WORN), bearing(Crown(1e-5, 0.03), WORN)):
+        cold, warm = (
+            build(bore, film, speed, Line(), viscosity=told).least(place, bend)
+            for told in (None, Thickness(z, cells, growth=grown * cells))
+        )
+        np.testing.assert_allclose(warm, cold + grown, rtol=1e-12)
 
 
 def test_a_crown_and_lobes_go_with_a_contour(alone):

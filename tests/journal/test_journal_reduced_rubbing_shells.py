@@ -65,6 +65,9 @@ def test_a_matrix_of_local_growth_is_pressed_as_the_local_shell_is(alone):
     for name in NAMES:
         one, other = (float(getattr(state, name)) for state in states)
         assert one == pytest.approx(other, rel=1e-6)
+    for name in ("stiffness", "damping"):
+        one, other = (getattr(state, name) for state in states)
+        np.testing.assert_allclose(one, other, rtol=1e-6)
 
 
 @pytest.mark.slow

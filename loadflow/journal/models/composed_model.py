@@ -158,8 +158,8 @@ class ComposedFilm:
         if self.film.ring.shaped:
             for n, (place, line) in enumerate(zip(places, lines)):
                 if standing[n] and self.film.rough.size > 0.0:
-                    alone = self._touching_at(size[n : n + 1])
-                    place[:2] = self._lying(toward[n], alone.item(), place, line[2:])
+                    ratio = float(self._touching_at(size[n : n + 1])[0])
+                    place[:2] = self._lying(toward[n], ratio, place, line[2:])
                 else:
                     place[:2] *= self._share_inside(place, line[2:])
             return places
@@ -201,7 +201,7 @@ class ComposedFilm:
         rough = self.film.rough
         carried = rough.table[0] * rough.weights.sum()
         ratios = rough.first + rough.step * np.arange(carried.size)
-        return np.asarray(np.interp(load, carried, ratios))
+        return np.interp(load, carried, ratios)
 
     def resolves(self, position: Array) -> bool:
         """Whether the cells around resolve the narrowest gap of a rigid shell."""
@@ -240,7 +240,7 @@ class ComposedFilm:
         """Narrowest gap (n,) of a rigid shell at `positions` (n, 4), clearances, over the width."""
         centres, bore = self.centres(positions, bends), Bore.of(self.bearing)
         if contoured(self.bearing):
-            return least_gap(self.bearing, centres, self.film.places.z)
+            return least_gap(self.bearing, centres, self.film.places)
         gaps = bore.narrowest(centres.reshape(-1, 2)).reshape(len(positions), -1)
         return np.asarray((gaps + self.film.places.depth).min(axis=1))
 

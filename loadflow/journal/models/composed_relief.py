@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -61,14 +63,16 @@ def with_contours(
     return uneven._replace(grows=True, wider=wider[0], wider_faces=wider[1], beside=there)
 
 
-def least_gap(bearing: JournalGeometry, centres: Array, z: Array) -> Array:
-    """Narrowest gap (n,) of a contoured bore around shafts whose `centres` (n, f, 2) are at `z`."""
+def least_gap(bearing: JournalGeometry, centres: Array, places: Places) -> Array:
+    """Narrowest gap (n,) of a contoured bore around shafts of `centres` (n, f, 2) at `places`."""
     bore, parts = Bore.of(bearing), bearing.shape.segments
+    around = tuple(part for part in bearing.relief if not part.even_around)
+    bore = replace(bore, relief=around)  # the places know the rest, and growth by heat
     spans = [(part.start, part.end) for part in parts] or [(0.0, 2.0 * np.pi)]
     least = np.full(len(centres), np.inf)
     for number, (start, end) in enumerate(spans):
         angle = np.linspace(start, end, 2 + int((end - start) / _AROUND))
-        gap = bore.gap(angle, np.full(angle.size, number), z)
+        gap = bore.gap(angle, np.full(angle.size, number), places.z) + places.depth
         facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         closer = np.einsum("ac,nfc->naf", facing, centres)
         least = np.minimum(least, (gap - closer).min(axis=(1, 2)))

@@ -35,7 +35,7 @@ def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int
     Raises
     ------
     OrbitStopped
-        As on the cells that are asked for.
+        As on the cells that are asked for; it tells of more cells that were not tried.
     """
     around, across = options.cells
     stop: OrbitStopped | None = None
@@ -50,6 +50,9 @@ def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int
             stop = stop or cast("OrbitStopped", error)
             own = error.work if isinstance(error, OrbitStopped) else 0.0
             done, ahead = done + own, 2.0 * own
-        if 2 * around > most or done + ahead > _WORK:
+        if 2 * around > most:
             raise stop
+        if done + ahead > _WORK:
+            more = f"grid = [{2 * around}, {across}] asks for more cells, which were not tried"
+            raise OrbitStopped(f"{stop}; {more}", stop.time, stop.work) from stop
         around *= 2
