@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import errno
+import json
+import math
 import os
 import re
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from loadflow.errors import InputError
 
@@ -51,6 +54,55 @@ def write_text(path: Path, text: str) -> Path:
     with written_whole(path) as temporary:
         temporary.write_text(text, encoding="utf-8")
     return path
+
+
+def write_json(path: Path, data: Any) -> Path:
+    """Write data as JSON, whole or not at all: NaN as null, what is infinite as "Infinity"."""
+    text = json.dumps(plain(data, infinite=True), indent=1, allow_nan=False)
+    return write_text(path, text)
+
+
+def plain(data: Any, *, infinite: bool = False) -> Any:
+    """Mappings, sequences and arrays as what JSON knows; NaN is None.
+
+    Parameters
+    ----------
+    data
+        Of any depth.
+    infinite : bool
+        Whether infinite numbers are told, as "Infinity" and "-Infinity"; else they are None, too.
+
+    Examples
+    --------
+    >>> plain({"life": (1.0, float("nan"), float("inf"))})
+    {'life': [1.0, None, None]}
+    >>> plain(float("-inf"), infinite=True)
+    '-Infinity'
+    """
+    if hasattr(data, "tolist"):  # an array or one of its numbers
+        data = data.tolist()
+    if isinstance(data, Mapping):
+        return {str(key): plain(value, infinite=infinite) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [plain(value, infinite=infinite) for value in data]
+    if not isinstance(data, float) or math.isfinite(data):
+        return data
+    if infinite and math.isinf(data):
+        return "Infinity" if data > 0 else "-Infinity"
+    return None
+
+
+def number_of(value: Any) -> Any:
+    """A number as it was before `write_json`; what else stands in its place stays as it is.
+
+    Examples
+    --------
+    >>> number_of(None), number_of("-Infinity"), number_of("not measured")
+    (nan, -inf, 'not measured')
+    """
+    if value is None:
+        return math.nan
+    return float(value) if value in ("Infinity", "-Infinity") else value
 
 
 def target_of(name: str) -> str | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import sys
 import warnings
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -16,6 +16,7 @@ from rich.table import Table
 
 from loadflow.cli.stated import App, Commands, refuse, stated
 from loadflow.errors import InputError, ValidityWarning, in_a_line
+from loadflow.storage import plain
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -122,20 +123,7 @@ def caught_warnings() -> Iterator[list[str]]:
 
 def print_json(data: Any) -> None:
     """Print as JSON; what is not finite becomes null, which JSON has."""
-    print(json.dumps(_plain(data), allow_nan=False))
-
-
-def _plain(data: Any) -> Any:
-    """Turn mappings, sequences and arrays into what JSON knows."""
-    if hasattr(data, "tolist"):  # an array or one of its numbers
-        data = data.tolist()
-    if isinstance(data, Mapping):
-        return {str(key): _plain(value) for key, value in data.items()}
-    if isinstance(data, list | tuple):
-        return [_plain(value) for value in data]
-    if isinstance(data, float) and not -float("inf") < data < float("inf"):
-        return None
-    return data
+    print(json.dumps(plain(data), allow_nan=False))
 
 
 def print_rows(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:

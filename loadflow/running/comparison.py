@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -30,7 +29,7 @@ from loadflow.running.runner import Report, run_on
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Candidate, Scene, read_scene
-from loadflow.storage import write_text
+from loadflow.storage import write_json, write_text
 from loadflow.studies.compare import compared, judged
 from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_result import Comparison, Judged
@@ -129,7 +128,7 @@ def compare(
     done = Compared(loads.folder, found, failures)
     write_comparison(done.page, found.as_dict())
     write_text(done.table, found.to_csv())
-    write_text(done.path / "compare.json", json.dumps(found.as_dict(), indent=1))
+    write_json(done.path / "compare.json", found.as_dict())
     return done
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import copy
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,7 @@ from loadflow.running.executor import executor
 from loadflow.running.lock import locked
 from loadflow.scene.design import Crowning
 from loadflow.scene.scene import Candidate, Scene
-from loadflow.storage import write_text
+from loadflow.storage import write_json, write_text
 from loadflow.studies.crowning import PlaceCrown, crowns_of
 from loadflow.studies.design_result import scene_with_bearings
 from loadflow.studies.design_space import with_collars, written_collars, written_places
@@ -94,7 +93,7 @@ def crown(
         groups = {place: spectrum[place].to_dataset() for place in journal.bearings}
         found = crowns_of(journal, groups, scene.design.crown or Crowning())
         done = Crowned(folder, found)
-        write_text(done.table, json.dumps([one.as_dict() for one in found], indent=1))
+        write_json(done.table, [one.as_dict() for one in found])
         write_text(done.scene, _scene(scene, name, candidate, found))
     return done
 

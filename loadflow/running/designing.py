@@ -8,7 +8,6 @@ the same bits with any number of processes.
 from __future__ import annotations
 
 import hashlib
-import json
 import math
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -38,7 +37,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Candidate, Scene
 from loadflow.stages.effects.clearances import CLEARANCES
 from loadflow.stages.effects.situation import situation
-from loadflow.storage import write_text
+from loadflow.storage import write_json, write_text
 from loadflow.studies.compare import judged
 from loadflow.studies.compare_result import Judged
 from loadflow.studies.design_point import (
@@ -157,7 +156,7 @@ def design(
         write_text(done.scene, scene_of_best(fitting, checked))
     elif done.scene.exists():
         done.scene.unlink()  # of other settings
-    write_text(folder / "design.json", json.dumps(checked.as_dict(), indent=1))
+    write_json(folder / "design.json", checked.as_dict())
     write_design(done.page, checked.as_dict())
     return done
 

@@ -26,7 +26,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.schemas import Schema
 from loadflow.stages.stage import Stage
-from loadflow.storage import target_of, write_text
+from loadflow.storage import number_of, target_of, write_json, write_text
 
 FILES = (
     "scene.toml", "manifest.json", "result.h5", "report.html", "profile.json", "run.log",
@@ -58,6 +58,8 @@ _KINDS: dict[str, type | tuple[type, ...]] = {
     "seconds": dict,
     "failures": dict,
     "pilot": (dict, type(None)),
+    "effects": list,
+    "expected_errors": dict,
     "wall_seconds": (int, float),
 }
 
@@ -151,7 +153,31 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         raise InputError(
             f"{path}: damaged (bad value of {', '.join(wrong)}); `loadflow run` makes it anew"
         )
-    return found
+    return found | _sizes_of(found)
+
+
+def _sizes_of(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Parts of a manifest that tell sizes by quantity, with the numbers that JSON has not."""
+    told: dict[str, Any] = {}
+    if "expected_errors" in found:
+        told["expected_errors"] = _numbers(found["expected_errors"])
+    if found.get("pilot"):
+        told["pilot"] = found["pilot"] | {"sizes": _numbers(found["pilot"].get("sizes", {}))}
+    if "effects" in found:  # a size of None was not measured
+        told["effects"] = [
+            {
+                key: _numbers(value) if isinstance(value, dict) else value
+                for key, value in one.items()
+            }
+            for one in found["effects"]
+            if isinstance(one, dict)
+        ]
+    return told
+
+
+def _numbers(part: Any) -> Any:
+    known = isinstance(part, dict)
+    return {key: _numbers(value) for key, value in part.items()} if known else number_of(part)
 
 
 def _manifest(folder: Path) -> dict[str, Any]:
@@ -259,7 +285,7 @@ def prepare(
         "versions": {"python": platform.python_version(), "loadflow": loadflow.__version__}
         | {name: metadata.version(name) for name in ("numpy", "scipy", "numba", "xarray")},
     }
-    write_text(folder / "manifest.json", json.dumps(manifest, indent=1))
+    write_json(folder / "manifest.json", manifest)
     return manifest
 
 
@@ -320,4 +346,4 @@ def record(
         "workers": workers,
         "failures": failures,
     }
-    write_text(folder / "manifest.json", json.dumps(manifest, indent=1))
+    write_json(folder / "manifest.json", manifest)

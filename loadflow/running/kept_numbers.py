@@ -5,12 +5,12 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
-from dataclasses import asdict
+from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
 from loadflow import __version__
-from loadflow.storage import write_text
+from loadflow.storage import number_of, plain, write_json
 from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.verdict import Verdict
@@ -38,14 +38,14 @@ def key_of(run: Finished, **beside: Any) -> str:
         "run": {name: run.manifest.get(name) for name in _OF_RUN},
         "beside": beside,
     }
-    text = json.dumps(told, sort_keys=True, default=_plain)
+    text = json.dumps(plain(told, infinite=True), sort_keys=True)
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def keep(run: Finished, key: str, found: Judged) -> None:
     """Write the numbers of a candidate into the folder of its run."""
     told = {"of": key, "found": asdict(found)}
-    write_text(run.folder / FILE, json.dumps(told, indent=1, default=_plain))
+    write_json(run.folder / FILE, told)
 
 
 def kept(run: Finished, key: str) -> Judged | None:
@@ -63,9 +63,17 @@ def kept(run: Finished, key: str) -> Judged | None:
     if told.get("of") != key:
         return None
     found = dict(told["found"])
-    found["numbers"] = {name: Number(**one) for name, one in found["numbers"].items()}
-    found["verdicts"] = tuple(Verdict(**one) for one in found["verdicts"])
+    found["numbers"] = {
+        name: Number(**_as_kept(Number, one)) for name, one in found["numbers"].items()
+    }
+    found["verdicts"] = tuple(Verdict(**_as_kept(Verdict, one)) for one in found["verdicts"])
     return Judged(**found)
+
+
+def _as_kept(kind: type[Number | Verdict], told: Mapping[str, Any]) -> dict[str, Any]:
+    """Fields of a number or a verdict, with NaN and infinite numbers in its floats again."""
+    floats = {one.name for one in fields(kind) if one.type == "float"}
+    return {key: number_of(value) if key in floats else value for key, value in told.items()}
 
 
 def _read(path: Path) -> Mapping[str, Any]:
@@ -74,8 +82,3 @@ def _read(path: Path) -> Mapping[str, Any]:
     except (OSError, ValueError):  # not there, or damaged: they are found anew
         return {}
     return told if isinstance(told, dict) else {}
-
-
-def _plain(value: Any) -> Any:
-    """A number of numpy as one of Python."""
-    return value.item()

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from loadflow.running.cases import Outcome
-from loadflow.storage import write_text
+from loadflow.storage import write_json
 
 FILE = "profile.json"
 """What a run with a profile leaves in its folder."""
@@ -113,4 +112,4 @@ class Profile:
 
     def write(self, path: Path, workers: int) -> None:
         """Write the table as JSON."""
-        write_text(path, json.dumps(self.table(workers), indent=1))
+        write_json(path, self.table(workers))

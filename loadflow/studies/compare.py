@@ -19,6 +19,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
 from loadflow.stages.turning import runs_throughout
+from loadflow.storage import plain
 from loadflow.studies.compare_factor import Margin
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import (
@@ -44,7 +45,6 @@ from loadflow.studies.compare_result import (
     Comparison,
     Judged,
     Number,
-    plain,
     without,
 )
 from loadflow.studies.compare_risks import rolling_risks, wear

@@ -5,12 +5,11 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, fields
 from typing import Any
 
-import numpy as np
-
+from loadflow.storage import plain
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.verdict import Verdict
 
@@ -286,12 +285,3 @@ class Comparison:
                 first = [one.name, key, told["value"], number.unit]
                 rows.writerow([*first, *("" if told[h] is None else told[h] for h in heads)])
         return text.getvalue()
-
-
-def plain(data: Any) -> Any:
-    """Plain values for JSON; what is not finite is None."""
-    if isinstance(data, Mapping):
-        return {name: plain(part) for name, part in data.items()}
-    if isinstance(data, np.generic):
-        data = data.item()
-    return None if isinstance(data, float) and not math.isfinite(data) else data

@@ -16,8 +16,9 @@ import tomli_w
 from loadflow.quantities import HOURS_PER_YEAR, three_digits
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Scene
+from loadflow.storage import plain
 from loadflow.studies.compare_quantities import named_quantities
-from loadflow.studies.compare_result import Judged, plain
+from loadflow.studies.compare_result import Judged
 from loadflow.studies.design_point import NUMBERS, DesignPoint
 from loadflow.studies.design_space import Space
 

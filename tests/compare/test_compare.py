@@ -28,6 +28,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.quantities import three_digits
 from loadflow.report.compare_page import _row, write_comparison
 from loadflow.report.sketch import sketch
+from loadflow.running import kept_numbers
 from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
     SHARED,
@@ -42,6 +43,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
+from loadflow.storage import plain
 from loadflow.studies.compare import in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
@@ -55,7 +57,6 @@ from loadflow.studies.compare_result import (
     Judged,
     Number,
     missing,
-    plain,
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
 from loadflow.studies.compare_supply import supply_power
@@ -579,6 +580,22 @@ def test_it_continues_with_what_is_missing(cube, found):
     after = {path.name: path.stat().st_mtime_ns for path in film.iterdir()}
     assert after == before
     assert again.comparison.to_csv() == found.comparison.to_csv()
+
+
+def test_kept_numbers_are_strict_json_and_come_back_as_they_were(tmp_path):
+    verdict = Verdict("N", "life", math.nan, math.inf, "at least")
+    life = {"life": Number(math.inf, "h")}
+    one = judged_of("a", np.float64(5.0), numbers=life, verdicts=(verdict,))
+    run = SimpleNamespace(folder=tmp_path)
+    kept_numbers.keep(run, "of", one)
+
+    def refused(name):
+        raise AssertionError(f"{name} is no JSON")
+
+    json.loads((tmp_path / "numbers.json").read_text(), parse_constant=refused)
+    assert repr(kept_numbers.kept(run, "of")) == repr(
+        judged_of("a", 5.0, numbers=life, verdicts=(verdict,))
+    )
 
 
 def test_numbers_are_found_once_and_anew_where_they_rest_on_something_else(

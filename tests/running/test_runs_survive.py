@@ -2,6 +2,7 @@
 
 import json
 import logging
+import math
 import os
 import shutil
 import subprocess
@@ -16,8 +17,10 @@ from small_run import contents, small_scene
 
 from benchmarks.robustness import kills
 from loadflow.errors import FormerVersionWarning, InputError, LoadflowError, NewerVersionError
+from loadflow.planning.effects import EffectVerdict
+from loadflow.planning.plan import EffectInPlan, make_plan
 from loadflow.running.executor import Lost, executor, usable_cores
-from loadflow.running.folder import MANIFEST, read_manifest, refinements
+from loadflow.running.folder import MANIFEST, known_verdict, prepare, read_manifest, refinements
 from loadflow.running.lock import locked
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.runner import run
@@ -114,6 +117,28 @@ def test_a_damaged_manifest_is_said_and_made_again_from_the_parts(
     assert "manifest.json: damaged" in caplog.text
     assert (copied / PART).stat().st_mtime_ns == stamp
     assert read_manifest(manifest.parent)["cases"] == ["dlc1.1_v8_s1", "dlc1.1_v12_s1"]
+
+
+def test_sizes_that_are_not_finite_are_strict_json_and_come_back_as_they_were(tmp_path):
+    scene = small_scene(tmp_path)
+    effect = EffectInPlan("heat", False, None, {"life": math.nan, "film": 0.1}, "not asked for")
+    errors = {"journal.film": {"minimum film": math.nan, "pressure": None}}
+    planned = replace(make_plan(scene), effects=[effect], errors=errors)
+    verdict = EffectVerdict({"tilt": {"film": math.inf, "life": -math.inf, "power": math.nan}})
+    folder = tmp_path / "small"
+    folder.mkdir()
+    prepare(folder, scene, planned, [], False, verdict)
+
+    def refused(name):
+        raise AssertionError(f"{name} is no JSON")
+
+    json.loads((folder / "manifest.json").read_text(encoding="utf-8"), parse_constant=refused)
+    found = read_manifest(folder)
+    assert repr(found["effects"]) == repr([vars(effect)])
+    assert repr(found["expected_errors"]["journal.film"]) == (
+        "{'minimum film': nan, 'pressure': 'not measured'}"
+    )
+    assert repr(known_verdict(folder, scene)) == repr(verdict)
 
 
 def test_a_manifest_of_an_older_version_is_read_and_brought_up_to_date(finished, copied):
