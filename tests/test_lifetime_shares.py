@@ -74,6 +74,16 @@ def test_both_cases_of_normal_production_share_one_time():
     assert got[:3].sum() == pytest.approx(RUNNING)
 
 
+def test_variants_of_production_and_idling_share_the_lifetime_as_their_load_cases_do():
+    speeds, lengths = [8.0, 8.0, 12.0, 30.0, 12.0], [600.0] * 5
+    got = lifetime_shares(["1.1a", "1.2", "1.2b", "6.4a", "1.3a"], speeds, lengths)
+    np.testing.assert_allclose(
+        got, lifetime_shares(["1.1", "1.2", "1.2", "6.4", "1.3"], speeds, lengths), rtol=1e-12
+    )
+    assert got[:3].sum() == pytest.approx(RUNNING)
+    assert got[4] == 0
+
+
 def test_a_single_load_case_takes_the_whole_lifetime():
     got = lifetime_shares(["3.1"] * 3, [4.0, 8.0, 8.0], [300.0] * 3)
     assert got.sum() == pytest.approx(1.0)
@@ -184,6 +194,9 @@ def test_events_of_a_scene_take_their_time_damage_and_energy():
     year = 8766 * 3600 * 2e3
     assert energies[0] == pytest.approx(year * RUNNING)
     assert energies[1] == pytest.approx(year * (RUNNING * (1 - start) + start))
+    table["dlc"] = "case", ["1.2a", "3.1"]
+    share, power = case_shares(without, table), table["mean_friction_power"]
+    assert float(energy_per_year(without, table, power, share)[0]) == energies[0]
 
 
 def test_events_that_are_not_there_or_take_more_than_a_year_are_refused():

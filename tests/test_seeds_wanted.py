@@ -1,5 +1,7 @@
 """Seeds that an accuracy takes: by the scatter of a run, or of the main job before one."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -79,6 +81,15 @@ def test_a_plan_without_a_run_takes_the_main_job_and_says_what_seeds_would_buy()
     assert "50-year load" in said[1]
     fewer = seeds_wanted(make_plan(SCENE), wanted=0.5)
     assert fewer[1].seeds == 1
+
+
+def test_variants_have_the_wind_of_their_load_case():
+    def variant(dlc):
+        plan = make_plan(SCENE)
+        return replace(plan, cases=tuple(replace(case, dlc=dlc) for case in plan.cases))
+
+    assert seeds_wanted(variant("1.5a")) == seeds_wanted(variant("1.5")) == []
+    assert seeds_wanted(variant("1.2a")) == seeds_wanted(variant("1.2")) != []
 
 
 def test_cases_without_turbulence_have_nothing_to_say():

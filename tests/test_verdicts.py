@@ -16,7 +16,7 @@ from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_tilt import carries_thrust
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.uncarried import located, uncarried
-from loadflow.studies.verdicts import verdicts
+from loadflow.studies.verdicts import RollingLimits, _static, verdicts
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 FILM = {"grid": [24, 8]}
@@ -91,6 +91,15 @@ def test_static_safety_is_that_of_the_factored_load(run):
     # of rollers the force grows with the load, so that the safety is not far from its share
     assert characteristic / 1.35 == pytest.approx(found.value, rel=0.2)
     assert found.value < characteristic
+
+
+@pytest.mark.parametrize(("dlc", "said"), [("1.1", True), ("1.1a", True), ("1.3a", False)])
+def test_a_variant_of_1_1_is_told_as_not_extrapolated(dlc, said):
+    names = ("bearing_design_safety", "bearing_load_factor", "bearing_static_safety")
+    values = {name: ("case", [1.35]) for name in names}
+    table = xr.Dataset(values, {"case": ["a"], "dlc": ("case", [dlc])})
+    note = _static(RollingLimits(), "rolling N", table).note
+    assert ("not extrapolated" in note) is said
 
 
 def test_the_worst_sample_under_design_loads_is_solved_anew(run, cube, tmp_path):

@@ -22,7 +22,7 @@ from loadflow.scene.scene import Scene
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups
 from loadflow.studies.seed_scatter import ANSWERS, scatter_of_one_seed, table_of_cases
-from loadflow.wind.cases import LOAD_CASES
+from loadflow.wind.cases import row_of
 
 WANTED = 0.05
 """Half width of the intervals that seeds are counted for, where the scene asks for no accuracy."""
@@ -104,7 +104,8 @@ def seeds_wanted(
     scene = plan.scene
     sizes: dict[tuple[str, float], int] = {}
     for case in plan.cases:
-        if case.dlc not in LOAD_CASES or LOAD_CASES[case.dlc].turbulent:
+        row = row_of(case.dlc)
+        if row is None or row.turbulent:
             group = case.dlc, case.wind_speed
             sizes[group] = sizes.get(group, 0) + 1
     if not sizes:

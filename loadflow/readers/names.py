@@ -194,13 +194,6 @@ def plain_dlc(text: str) -> str:
     return _number(*match.groups()) if match else text.strip()
 
 
-def standard_dlc(text: str) -> str:
-    """Return the load case of the standard that a variant belongs to: ``6.2`` of ``DLC6.2a``."""
-    plain = plain_dlc(text)
-    match = re.match(r"\d\.\d(?=[a-z]*$)", plain)
-    return match[0] if match else plain
-
-
 def read_case_list(path: str | os.PathLike[str]) -> dict[str, CaseLabel]:
     """Read a list of cases: CSV with columns file, dlc, wind_speed, seed and weight.
 

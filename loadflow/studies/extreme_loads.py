@@ -99,10 +99,10 @@ def safety_factor(dlc: str) -> float:
     That of 1.1 is the normal 1.35: the 1.25 of IEC 61400-1 is for loads that are extrapolated.
     Variants have that of their load case: ``DLC6.2a``, ``62`` and ``6.2 EWM`` that of 6.2.
     """
-    from loadflow.readers.names import standard_dlc
+    from loadflow.readers.names import plain_dlc
     from loadflow.wind.cases import factor_of_maximum
 
-    return factor_of_maximum(standard_dlc(dlc))
+    return factor_of_maximum(plain_dlc(dlc))
 
 
 def _dataset(

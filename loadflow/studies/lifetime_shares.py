@@ -8,13 +8,14 @@ many times a year. Cases of extreme loads alone have no share.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.scene.cases import speed_shares
 from loadflow.wind import iec
+from loadflow.wind.cases import row_of
 
 YEAR = 365.25 * 86_400.0
 PRODUCTION = ("1.1", "1.2")
@@ -36,7 +37,7 @@ def lifetime_shares(
     A single design load case takes the whole lifetime, by its wind speeds. Of several, those of
     `per_year` take their number times their length, and production and idling share the rest as
     the wind is within or outside `operating`; the others get 0. Cases of one wind speed share
-    equally.
+    equally. A variant of a load case, such as 1.2a, is production or idling as its load case is.
 
     Parameters
     ----------
@@ -89,8 +90,8 @@ def lifetime_shares(
     below = iec.weibull_cdf(operating, iec.class_speeds(wind_class).v_ave, shape)
     running = float(below[1] - below[0])
     outside = (speeds < operating[0]) | (speeds > operating[1])
-    times = running * within([dlc for dlc in PRODUCTION if dlc not in counted])
-    idle = within([dlc for dlc in IDLING if dlc not in counted]) * outside
+    times = running * within([dlc for dlc in of_load_cases(dlcs, PRODUCTION) if dlc not in counted])
+    idle = within([dlc for dlc in of_load_cases(dlcs, IDLING) if dlc not in counted]) * outside
     times += (1 - running) * idle / (idle.sum() or 1.0)
     shares = events + (1 - events.sum()) * times / (times.sum() or 1.0)
     if not shares.any():
@@ -99,6 +100,17 @@ def lifetime_shares(
             "say how often a year they happen (per_year), or give the shares"
         )
     return shares
+
+
+def of_load_cases(dlcs: Iterable[str], group: Sequence[str]) -> set[str]:
+    """Those of some design load cases that are of a group, or variants of one of it.
+
+    Examples
+    --------
+    >>> sorted(of_load_cases(["1.1a", "1.2", "1.3", "steady"], PRODUCTION))
+    ['1.1a', '1.2']
+    """
+    return {dlc for dlc in dlcs if (row := row_of(dlc)) is not None and row.dlc in group}
 
 
 def without_share(dlcs: Sequence[str], shares: np.ndarray) -> list[str]:

@@ -13,7 +13,7 @@ from loadflow.scene.cases import wind_class
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label
 from loadflow.stages.rolling import hours_together, system_hours
-from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares
+from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares, of_load_cases
 from loadflow.wind import iec
 
 Tables = Mapping[str, xr.Dataset]
@@ -187,7 +187,7 @@ def energy_per_year(
     seconds = np.full(table.sizes["case"], HOURS_PER_YEAR * 3600)
     dlcs = set(table["dlc"].values.tolist())
     by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
-    if by_wind and dlcs & {*PRODUCTION} and not dlcs & {*IDLING}:
+    if by_wind and of_load_cases(dlcs, PRODUCTION) and not of_load_cases(dlcs, IDLING):
         below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
         produces = ~np.isin(table["dlc"].values, [*scene.lifetime.per_year])
         seconds[produces] *= float(below[1] - below[0])

@@ -373,11 +373,12 @@ def _static(limits: RollingLimits, subject: str, table: xr.Dataset) -> Verdict:
     row = judged.sel(case=case) if case else judged.isel(case=0)
     dlc, factor = str(row["dlc"].item()), float(row["bearing_load_factor"])
     note = f"γ_f {factor:g}; {float(row['bearing_static_safety']):.4g} under characteristic loads"
-    if dlc == "1.1":
+    of_table = row_of(dlc)
+    if of_table is not None and of_table.safety == "extrapolated":
         note += "; the normal factor, as 1.1 is not extrapolated (1.25 if it were)"
     if not ultimate.any():
         note += "; no load case of ultimate loads in this run"
-    elif row_of(dlc) is None:
+    elif of_table is None:
         note += f"; IEC 61400-1 has no load case {dlc!r}"
     limit = limits.static_safety
     return Verdict(

@@ -6,8 +6,9 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.readers import list_names, read_loads
-from loadflow.readers.names import label_from_name, plain_dlc, standard_dlc
+from loadflow.readers.names import label_from_name, plain_dlc
 from loadflow.studies.extreme_loads import safety_factor
+from loadflow.wind.cases import row_of
 
 NAMES = {
     # DTU, HAWC2
@@ -132,7 +133,8 @@ def test_wind_directions_of_one_seed_are_cases_of_their_own(tmp_path):
 )
 def test_variants_belong_to_a_load_case_of_the_standard(text, plain, standard):
     assert plain_dlc(text) == plain
-    assert standard_dlc(text) == standard
+    row = row_of(plain_dlc(text))
+    assert (plain if row is None else row.dlc) == standard
 
 
 def test_load_cases_by_other_names_keep_their_safety_factor():
