@@ -233,11 +233,15 @@ class Scene(Section, WithFittingBeams, BaseModel):
 
     @model_validator(mode="after")
     def _candidates_have_places(self) -> Self:
-        for name, candidate in self.candidates.items():
-            for place in candidate.places:
-                if place not in self.shaft.bearings:
-                    have = ", ".join(self.shaft.bearings) or "none"
-                    raise ValueError(f"candidates.{name}.{place}: the shaft has only {have}")
+        have = ", ".join(self.shaft.bearings) or "none"
+        wrong = [
+            f"candidates.{name}.{place}: the shaft has only {have}"
+            for name, candidate in self.candidates.items()
+            for place in candidate.places
+            if place not in self.shaft.bearings
+        ]
+        if wrong:
+            raise ValueError("\n".join(wrong))
         return self
 
     @model_validator(mode="after")

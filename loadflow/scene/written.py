@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -64,7 +65,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     loadflow.errors.InputError
         A version of the form that is not known.
     ValueError
-        Places that are no bearings.
+        Places that are no bearings, of the scene or of any candidate; one bearing a line.
     """
     read = dict(data)
     read = SCENE.upgrade(read, read.pop(SCENE.key, UNSTATED))
@@ -72,19 +73,33 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     turbine = _turbine_of(read)
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft
+    wrong: list[str] = []
     if "bearings" in read:
-        sections = sections_of(_placed(read.pop("bearings"), turbine)).data
-        if twice := sorted(set(sections) & set(read)):
-            raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
-        if "results" not in read:
-            rooms = {"journal", "rolling", "thrust"} - set(sections)
-            read["results"] = [name for name in results if name.split(".")[0] not in rooms]
-        read |= sections
-    if isinstance(read.get("candidates"), dict):
-        read["candidates"] = {
-            name: _candidate(name, stated, turbine) for name, stated in read["candidates"].items()
-        }
+        with _told_later(wrong):
+            sections = sections_of(_placed(read.pop("bearings"), turbine)).data
+            if twice := sorted(set(sections) & set(read)):
+                raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
+            if "results" not in read:
+                rooms = {"journal", "rolling", "thrust"} - set(sections)
+                read["results"] = [name for name in results if name.split(".")[0] not in rooms]
+            read |= sections
+    if isinstance(candidates := read.get("candidates"), dict):
+        read["candidates"] = dict(candidates)
+        for name, stated in candidates.items():
+            with _told_later(wrong):
+                read["candidates"][name] = _candidate(name, stated, turbine)
+    if wrong:
+        raise ValueError("\n".join(wrong))
     return read
+
+
+@contextmanager
+def _told_later(wrong: list[str]) -> Iterator[None]:
+    """Add what is wrong with some bearings to the rest of it, to tell all of it at once."""
+    try:
+        yield
+    except ValueError as error:
+        wrong.append(str(error))
 
 
 def _candidate(name: str, stated: Any, turbine: str) -> Any:

@@ -207,6 +207,38 @@ def test_all_bad_bearings_are_told_at_once_and_what_is_wrong_beside_them():
         assert part in line
 
 
+def told_of(data):
+    with pytest.raises(InputError) as caught:
+        make_scene(data, "own.toml")
+    return str(caught.value).splitlines()
+
+
+def test_bad_bearings_of_all_candidates_are_told_at_once_beside_those_of_the_scene():
+    bad = {"a": {"N": {"kind": "jornal"}, "N2": {"kind": "roller"}}, "b": {}, "c": {"N": 3}}
+    lines = told_of({"bearings": {"N": {"kind": "x"}}, "candidates": bad, "loads": {"seed": 2}})
+    told = (
+        "bearings.N.kind: must be one of",
+        "candidates.a.N.kind: must be one of",
+        "candidates.a.N2.geometry: must be",
+        "candidates.b: says nothing, and is none of those sized",
+        "candidates.c.N = 3: must be a table",
+        "loads.seed: unknown",
+    )
+    assert len(lines) == len(told)
+    for line, part in zip(lines, told):
+        assert line.startswith("own.toml: ")
+        assert part in line
+
+
+def test_places_that_the_shaft_lacks_are_told_of_all_candidates():
+    film = {"kind": "journal"}
+    lines = told_of({"candidates": {"a": {"X": film, "Y": film}, "b": {"N": film, "Z": film}}})
+    assert lines == [
+        f"own.toml: scene: candidates.{where}: the shaft has only N, N2, M"
+        for where in ("a.X", "a.Y", "b.Z")
+    ]
+
+
 def test_what_is_wrong_for_want_of_the_bearings_is_not_told():
     with pytest.raises(InputError) as caught:
         make_scene({"results": ["thrust.film"], "bearings": {"N": {"kind": "jornal"}}})
