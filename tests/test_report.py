@@ -52,6 +52,20 @@ def test_the_page_needs_no_other_file_and_no_network(page):
         assert f'id="{target}"' in text
 
 
+def test_the_page_opens_with_the_verdict_and_answers_and_ends_with_what_made_it(page):
+    text = page.read_text()
+    shown = text[text.index("<h1>") :]
+    parts = [
+        "<h2>Overview</h2>", " limits hold", "Not accurate enough: ", "<table", "<dt>Turbine</dt>",
+        "<dt>Loads</dt>", "<svg ", "<h2>Loads</h2>", "<h2>Provenance</h2>", "<dt>Took</dt>",
+        "<dt>Software</dt>",
+    ]  # fmt: skip
+    places = [shown.find(part) for part in parts]
+    assert -1 not in places
+    assert places == sorted(places)
+    assert "<dl>" not in shown[: places[3]]
+
+
 def test_the_page_shows_every_figure_that_was_promised(page):
     text = page.read_text()
     for section in ("Loads", "Seeds", "Reduction", "Journal bearing", "Rolling bearing"):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
@@ -118,7 +118,7 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page, shown in order: text, tables, pictures.
+    """A part of the page, shown in order: text, tables, short facts, pictures.
 
     Examples
     --------
@@ -131,6 +131,7 @@ class Section:
     text: str = ""
     tables: Sequence[Table] = field(default_factory=list)
     pictures: Sequence[Shown] = field(default_factory=list)
+    facts: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def anchor(self) -> str:
@@ -150,7 +151,7 @@ def write_page(
     title : str
         Heading of the page.
     facts : dict
-        Short facts shown under the heading.
+        Short facts shown under the heading, before all sections.
     sections : list of Section
         The content.
     mark : str, optional

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -88,14 +89,14 @@ def write_report(folder: Path, again: bool = False) -> Path:
     tables = results_of(folder) or {}
     force_of = forces_of(folder)
     lives, options = lifetime_of_loads(folder, scene, tables, force_of)
-    sections = [*_sections(folder, scene, manifest, tables, force_of)]
+    facts, first = _facts(scene, manifest, told_bores(tables)), _overview(scene, tables, manifest)
+    sections = [replace(first, facts=facts), *_sections(folder, scene, manifest, tables, force_of)]
     sections[2:2] = [lifetime_section(lives, options)] if lives else []  # behind overview and loads
-    facts, title = _facts(scene, manifest, told_bores(tables)), f"loadflow: {scene.name}"
     beside = folder / TABLES
     kept = {*write_tables(beside, sections), *write_lifetime_tables(lives, beside)}
     for old in {*beside.glob("*.csv")} - kept:
         old.unlink()
-    return write_page(folder / "report.html", title, facts, sections, made_of)
+    return write_page(folder / "report.html", f"loadflow: {scene.name}", {}, sections, made_of)
 
 
 _WRITTEN_BY = ("report", "plots", "running", "planning", "studies")
@@ -124,25 +125,22 @@ def _made_of(folder: Path) -> str:
 
 
 def _facts(scene: Scene, manifest: dict[str, Any], found: list[str]) -> dict[str, str]:
+    """What was asked for; it stands behind the answers."""
     loads = scene.loads
     source = (
         f"simulated, DLC {', '.join(loads.dlcs)}, category {loads.category}, {scene.turbine.name}"
         if loads.source == "simulate"
         else f"{len(manifest['inputs'])} files"
     )
-    short = manifest.get("shortfalls", [])
     # by the run: a resolved scene states all of it
     taken = [*manifest.get("taken", scene.taken), *found]
     return {
-        **({"Not accurate enough": "; ".join(short)} if short else {}),
         "Turbine": _turbine_fact(scene),
         "Loads": source,
         **({"Taken from elsewhere": "; ".join(taken)} if taken else {}),
         "Load cases": str(len(manifest["cases"])),
         "Results": ", ".join(scene.results),
         "Tables as CSV": f"in the folder {TABLES} beside this page",
-        "Took": _took(manifest),
-        "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
     }
 
 
@@ -170,7 +168,6 @@ def _sections(
     tables: dict[str, xr.Dataset],
     force_of: ForceOf,
 ) -> Iterator[Section]:
-    yield _overview(scene, tables, manifest)
     shown = _shown_cases(tables, manifest)
     yield loads_section(folder, tables, shown)
     if "iterations" in tables.get("shaft", ()):
@@ -239,6 +236,8 @@ def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, A
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
     said = [verdict_sentence(tables)]
+    if short := manifest.get("shortfalls"):
+        said.append(f"not accurate enough: {'; '.join(short)}")
     said.append(more_seeds(found, lambda result: min(scene.allowed(result), WARN)))
     said += sentences(of_run(scene, tables, manifest.get("expected_errors", {})))[:1]
     text = " ".join(f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one)
@@ -396,4 +395,8 @@ def _provenance(manifest: dict[str, Any]) -> Section:
     tables = [Table("Models", heads, rows)]
     if inputs:
         tables.append(Table("Input files", ["file", "SHA-256, beginning"], inputs))
-    return Section("Provenance", tables=tables)
+    facts = {
+        "Took": _took(manifest),
+        "Software": ", ".join(f"{k} {v}" for k, v in manifest["versions"].items()),
+    }
+    return Section("Provenance", tables=tables, facts=facts)
