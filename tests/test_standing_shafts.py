@@ -10,7 +10,7 @@ from loadflow.errors import SolverError
 from loadflow.planning.pilot import EFFORTS, Questions, measure, pilot
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.stages import comparisons, probes
+from loadflow.stages import comparisons, paths_again, probes
 from loadflow.stages.effects.film import CONTACT, MOTION, SHELL
 from loadflow.stages.registry import STAGES
 
@@ -159,6 +159,7 @@ def kept(speed):
     count = len(speed)
     samples = {name: ("sample", np.full(count, 0.9)) for name in comparisons.FILM}
     samples |= {
+        "time": ("sample", 0.1 * np.arange(count)),
         "speed": ("sample", np.asarray(speed, float)),
         "converged": ("sample", np.ones(count, int)),
         "running": ("sample", np.zeros(count, bool)),
@@ -179,7 +180,7 @@ def test_no_cells_are_refined_for_a_shaft_that_stands(dlc, speed, is_asked, monk
         stretches.append(loads["speed"].values)
         return xr.Dataset({n: ("time", np.full(loads.sizes["time"], 0.5)) for n in probes.FILM})
 
-    monkeypatch.setattr(comparisons, "in_motion", follow)
+    monkeypatch.setattr(paths_again, "in_motion", follow)
     scene = scene_of(dlc)
     series = given(speed * np.ones(400)) | {"journal": kept(speed * np.ones(400))}
     rows = comparisons.COMPARISONS["journal"](scene, list_cases(scene)[0], series)

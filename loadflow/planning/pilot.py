@@ -24,11 +24,13 @@ from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import move_together
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
+from loadflow.stages.turning import comes_from_or_to_standstill
 from loadflow.wind.cases import load_case
 
 SHARE = 0.05
@@ -149,8 +151,8 @@ def pilot(
     Returns
     -------
     EffectVerdict or None
-        None where the scene asks for no accuracy, no effect is worth a measurement, or no case
-        could be measured.
+        None where the scene asks for no accuracy, no effect is worth a measurement or, if `brief`,
+        what it takes, or no case could be measured.
 
     Raises
     ------
@@ -180,7 +182,7 @@ def pilot(
     effects, settled = tuple(one.name for one in worth), tuple[str, ...]()
     if brief:
         effects, settled = _to_decide(scene, chosen, known, worth, cases)
-    if not effects:
+    if not effects or (brief and _takes_long(chosen, effort, cases)):
         return None
     looked_at = hardest(scene, cases)[: effort.cases]
     questions = Questions(chosen, effects, effort.duration, tuple(looked_at), settled)
@@ -230,6 +232,22 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
         if effort.cases * ((1 + simulated) * each + SOLVED) <= SHARE * run:
             return effort
     return EFFORTS[-1]
+
+
+def _takes_long(chosen: Scene, effort: Effort, cases: tuple[Case, ...]) -> bool:
+    """Whether a shaft is to be followed in its films through too large a part of a run.
+
+    Of starts and stops alone: the heat balance of films on asperities takes most of the time of
+    such a case, so that a shorter one counts as a whole one.
+    """
+    floats = any(
+        move_together(chosen.shaft, chosen.journal, concept) for concept in chosen.shaft.concepts
+    )
+    if not floats or not comes_from_or_to_standstill(chosen):
+        return False
+    run = sum(expected_seconds(chosen, name, cases) or 0.0 for name in needed_stages(chosen))
+    one = sum(expected_seconds(chosen, name, cases[:1]) or 0.0 for name in ("loads", "journal"))
+    return effort.cases * one > SHARE * run
 
 
 def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Choice, Estimates]:

@@ -13,7 +13,7 @@ from loadflow.journal.grid_bounds import UNRESOLVED
 from loadflow.quantities import GRID_ERROR, percent
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
-from loadflow.stages.running_time import counted, time_shares
+from loadflow.stages.running_time import counted, in_contact, time_shares
 from loadflow.stages.summary import over_cases
 from loadflow.stages.turning import is_parked, turning
 from loadflow.stages.whirl import whirling
@@ -101,7 +101,7 @@ def extremes(samples: xr.Dataset, parked: bool = False, starts: bool = False) ->
                 found[name] = samples[of].where(count).weighted(weight).mean(), units, meaning
     found |= time_shares(samples, samples["friction_power"])
     answered = samples["converged"].astype(bool)
-    touching = samples["in_contact"].astype(bool) if "in_contact" in samples else ~answered & False
+    touching = in_contact(samples)
     residual = samples["residual"].where(~touching, 0.0)
     found |= {
         "largest_residual": (residual.max(), "1", "largest residual"),

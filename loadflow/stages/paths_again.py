@@ -18,7 +18,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.differences import Difference, differences
 from loadflow.stages.film_past import TURNS, past_of
 from loadflow.stages.journal import FILM as CELLS
-from loadflow.stages.running_time import counted
+from loadflow.stages.running_time import counted, in_contact
 from loadflow.stages.shaft_in_films import in_motion
 from loadflow.stages.turning import SLOWEST, is_parked, turning
 from loadflow.stages.whirl import FORGOTTEN, whirling
@@ -56,7 +56,7 @@ def paths_again(
         runs = np.where(whirls, np.nan, runs)
         if scene.shaft.coupled:
             # all films are one system: where smooth ones touch, none goes on as on other cells
-            films = [parts["journal"][name]["in_contact"].values > 0 for name in options]
+            films = [in_contact(parts["journal"][name].to_dataset()) for name in options]
             touches = np.any(films, axis=0) & np.asarray(counted(film))
             # ends that are too near fail, and cells say how far
             near = film["minimum_film"].values < better.least_film
@@ -68,8 +68,9 @@ def paths_again(
         # cells count where the film is thin, warmth all along the path
         some = places if stage == CELLS.name else slice(None)
         theirs = answers_of_path(film, some, ours, theirs)
-        alone = np.where(np.isfinite(runs) & (film["in_contact"] == 0), runs, np.nan)
-        if film["in_contact"][places].any() and np.isfinite(alone).any():
+        touches = in_contact(film).values
+        alone = np.where(np.isfinite(runs) & ~touches, runs, np.nan)
+        if touches[places].any() and np.isfinite(alone).any():
             # where surfaces rub, oil has hardly any pressure beside that of films that carry alone
             peak = film["maximum_pressure"].where(np.isfinite(alone)).argmax("sample")
             _, here, there = _stretch(scene, other, bearing, parts, alone, peak)
@@ -134,7 +135,7 @@ def answers_of_path(
     """
     stretch = film.isel(sample=places)
     runs = np.broadcast_to(np.asarray(counted(film)), (film.sizes["sample"],))
-    rests = (film["in_contact"] > 0) & ~runs
+    rests = in_contact(film) & ~runs
     stays = {
         "minimum_film": (np.fmin, film["minimum_film"].where(rests).min()),
         "eccentricity_ratio": (np.fmax, film["eccentricity_ratio"].where(rests).max()),

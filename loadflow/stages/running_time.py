@@ -44,6 +44,13 @@ def counted(samples: xr.Dataset) -> xr.DataArray | bool:
     return running | ~running.any("sample")
 
 
+def in_contact(samples: xr.Dataset) -> xr.DataArray:
+    """Whether shaft and shell touch, by sample; nowhere in films that do not tell."""
+    if "in_contact" in samples:
+        return samples["in_contact"] > 0
+    return xr.zeros_like(samples["converged"], dtype=bool)
+
+
 def time_shares(samples: xr.Dataset, power: xr.DataArray) -> dict[str, tuple[Any, str, str]]:
     """Share of the time that runs, and the mean power with the time of standing in it, W.
 

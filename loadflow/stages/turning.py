@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from loadflow.scene.cases import Case, design_load_cases
 from loadflow.scene.scene import Scene
-from loadflow.wind.cases import parked, stands_or_starts
+from loadflow.wind.cases import parked, stands_or_starts, starts_or_stops
 
 SLOWEST = 0.01 * np.pi / 30
 """Speed, rad/s, below which a shaft counts as standing: 0.01 1/min, the last digit of Table 5-22 in
@@ -28,6 +28,11 @@ def is_parked(case: Case) -> bool:
 def always_turns(scene: Scene) -> bool:
     """Whether the rotor turns through all load cases, as far as names tell what given ones are."""
     return not any(map(stands_or_starts, design_load_cases(scene)))
+
+
+def comes_from_or_to_standstill(scene: Scene) -> bool:
+    """Whether the rotor starts, or stops, in some load case."""
+    return any(map(starts_or_stops, design_load_cases(scene)))
 
 
 def carried_throughout(scene: Scene) -> bool:

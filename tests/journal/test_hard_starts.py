@@ -27,6 +27,7 @@ from loadflow.journal import (
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
+from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
@@ -333,6 +334,30 @@ def test_a_search_that_leads_nowhere_ends_after_a_count_of_steps_that_it_tells(n
 def test_the_cells_asked_for_leave_a_search_enough_for_twice_as_many():
     """Number 3084 has no film in its shell on 48 cells around, however long it is sought."""
     assert drawn("shell", 3084)[1]().converged
+
+
+@pytest.mark.parametrize(("around", "shell", "share"), [
+    (48, LocalShell(1e-12), 0.4),
+    (240, LocalShell(1e-12), 1.0),
+    (120, ThickShell(outer_diameter=0.3, modulus=2e10), 1.0),
+])  # fmt: skip
+def test_a_film_that_has_no_other_cells_is_sought_on_its_own_with_all_effort(
+    around: int, shell: Any, share: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What a search keeps for more cells is lost where a shell may have no more."""
+
+    class Seen(Exception):
+        pass
+
+    def solve(film: Statics, *given: Any) -> Any:
+        effort = given[-1]
+        raise Seen(1.0 - effort.kept / effort.left)
+
+    monkeypatch.setattr(Statics, "solve", solve)
+    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
+    with pytest.raises(Seen) as seen:
+        bearing.equilibrium((1e5, 0.0), 20.0, Lubricant(0.03), shell=shell, grid=(around, 8))
+    assert seen.value.args[0] == pytest.approx(share)
 
 
 def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):

@@ -137,7 +137,8 @@ class Statics:
         to `meshes` others, as long as the `effort` lasts.
         """
         refine, effort = self.can_refine, effort or self._effort(control)
-        effort.kept = _KEPT * effort.left if self.film.elastic and meshes else 0.0
+        others = self.film.elastic and meshes > 0 and self._may_crowd(omega)
+        effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
         effort.kept = 0.0
         resolved = self.suited(solution.position) is self
@@ -150,6 +151,15 @@ class Statics:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
         return crowded.resolve(index, load, omega, None, control, left, effort)
+
+    def _may_crowd(self, omega: float) -> bool:
+        """Whether there may be other cells for a film in an elastic shell, as `_crowded` tells."""
+        if omega == 0.0:
+            return False
+        if self.gap.axisymmetric:
+            return self.options.supply is not None
+        shell, around = self.options.shell, self.options.cells[0]
+        return shell is not None and shell.any_grid and 2 * around <= _MOST_AROUND[shell.local]
 
     def _crowded(self, solution: Solution) -> Statics | None:
         """The film on cells that crowd where the gap of a `solution` closes; None: as before."""
@@ -172,10 +182,8 @@ class Statics:
         Where a shell gives way by much on a cell, its gap follows the pressure from cell to cell
         so fast that the film has no answer on cells as long.
         """
-        shell, (around, across) = self.options.shell, self.options.cells
-        if shell is None or not shell.any_grid or 2 * around > _MOST_AROUND[shell.local]:
-            return None
-        if self.film.speed == 0.0 or self.film.dry(solution.u):
+        around, across = self.options.cells
+        if not self._may_crowd(self.film.speed) or self.film.dry(solution.u):
             return None
         if self.film.clearance_left(solution.position) <= APART:
             return None

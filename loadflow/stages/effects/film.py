@@ -9,7 +9,6 @@ import numpy as np
 
 from loadflow.data import gains
 from loadflow.journal import Turbulence
-from loadflow.scene.cases import design_load_cases
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import move_together
 from loadflow.stages.effects.effect import Effect, Sizes
@@ -25,8 +24,11 @@ from loadflow.stages.effects.film_tilt import left_at_ends, thinnest_by
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import always_turns, carried_throughout
-from loadflow.wind.cases import starts_or_stops
+from loadflow.stages.turning import (
+    always_turns,
+    carried_throughout,
+    comes_from_or_to_standstill,
+)
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""
@@ -75,7 +77,7 @@ def _motion(at: Situation) -> Sizes:
     pass; the rest is slow. Nothing of a shaft that stands, which rests on its shell. All of a shaft
     that starts or stops: at rest it has no film, where squeeze still holds one.
     """
-    if _starts_or_stops(at.scene):
+    if comes_from_or_to_standstill(at.scene):
         return dict.fromkeys(ANSWERS, 1.0)
     ratio = at.turbine.rotor.blades
     left = 0.5 * (1 / abs(1 - 2 * ratio) + 1 / (1 + 2 * ratio))
@@ -96,11 +98,6 @@ def _motion(at: Situation) -> Sizes:
 
 MEAN = 0.5
 """Change of a mean by motion over that of an extreme; docs/physics.md."""
-
-
-def _starts_or_stops(scene: Scene) -> bool:
-    """Whether the rotor comes from standstill, or to it, in some load case."""
-    return any(map(starts_or_stops, design_load_cases(scene)))
 
 
 MOTION = Effect(
