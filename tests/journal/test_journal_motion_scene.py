@@ -135,8 +135,11 @@ def test_the_plan_may_have_tilt_and_motion_together():
 def test_what_does_not_go_together_is_named():
     thick = {"kind": "thick", "outer_diameter": 3.5, "modulus": 2.1e11}
     assert make_scene({"journal": MOVING | {"shell": thick}}).journal.shell.modulus == 2.1e11
-    with pytest.raises(InputError, match='"reduced" in a shell that gives way'):
-        make_scene({"journal": MOVING | {"shell": thick, "contact": ROUGH}})
+    rubs = MOVING | {"shell": thick, "contact": ROUGH}
+    assert make_scene({"journal": rubs}).journal.contact is not None
+    fed = {"supply": {"grooves": [{"angle": 0.0, "pressure": 2e5}]}}
+    with pytest.raises(InputError, match=r"contact.*None beside a supply with MassConserving"):
+        make_scene({"journal": rubs | fed | {"cavitation": "mass-conserving"}})
     local = {"kind": "local", "compliance": 1e-12}
     assert make_scene({"journal": MOVING | {"shell": local}}).journal.shell.compliance == 1e-12
     both = make_scene({"journal": MOVING | {"shell": local, "contact": ROUGH}})

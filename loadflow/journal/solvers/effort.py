@@ -13,7 +13,7 @@ from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import DiscreteFilm
 
 _STEPS_OF_CELLS = 4e4  # Newton steps times cells, for each step that one solution may take
-_LEAST = 2  # steps on any cells, in multiples of those that one solution may take
+_LEAST = 3  # steps on any cells, in multiples of those that one solution may take
 # time of a step over that in a rigid bore: of a shell that gives way locally, of one that gives way
 # all over, for each column of its linear system, and of asperities on either
 _GIVES, _SPREADS, _TOUCHES = 1.5, 2.0, 4.0
