@@ -11,9 +11,9 @@ from loadflow.cli import main
 from loadflow.errors import InputError
 from loadflow.planning import choice
 from loadflow.planning.accuracy import expected_errors
-from loadflow.planning.choice import choose
+from loadflow.planning.choice import choose, error_of, rungs_up
 from loadflow.planning.effects import Estimates
-from loadflow.planning.ladder import expected_seconds, gains, ladder
+from loadflow.planning.ladder import expected_seconds, gains, ladder, measured
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
@@ -267,6 +267,24 @@ def file_of(cube, folder, text=""):
     head = f'results = ["journal.film"]\naccuracy = 0.2\n[loads]\nfiles = ["{cube}"]\n'
     path.write_text(head + text, encoding="utf-8")
     return path
+
+
+def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
+    film = {"motion": "transient", "rung": "reduced", "grid": (60, 20)}
+    scene = make_scene({"journal": film, "shaft": {"two_point": {}}})
+    errors = [
+        measured(scene, "journal", f"reduced, {cells}")["errors"]["minimum film"]["max"]
+        for cells in (60, 120, 240, 480)
+    ]
+    # were the next rung to move the film by as much as in the ladder, each rung has its error
+    own = error_of(scene, "journal", "minimum film", errors[0] - errors[1])
+    assert own == pytest.approx(errors[0])
+    for up in (1, 2, 3):
+        assert rungs_up(scene, "journal", "minimum film", own, 1.01 * errors[up]) == up
+    assert rungs_up(scene, "journal", "minimum film", own, 0.1 * errors[3]) == 3
+    assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
+    assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
+    assert error_of(scene, "journal", "not measured", 0.03) == 0.03
 
 
 def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):

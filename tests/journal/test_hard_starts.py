@@ -29,6 +29,7 @@ from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped
@@ -333,8 +334,24 @@ def test_a_search_that_leads_nowhere_ends_after_a_count_of_steps_that_it_tells(n
 
 @pytest.mark.parametrize("number", [3023, 3086])
 def test_the_effort_of_a_search_leaves_films_in_shells_that_take_many_steps(number):
-    """A smaller effort lost them."""
+    """They take more than half of it; a quarter of it lost them."""
     assert drawn("shell", number)[1]().converged
+
+
+def first_effort(monkeypatch: pytest.MonkeyPatch, **words: Any) -> tuple[Statics, Effort]:
+    """Film of a bearing, and what its search may take, as it begins."""
+
+    class Seen(Exception):
+        pass
+
+    def solve(statics: Statics, *given: Any) -> Any:
+        raise Seen(statics, given[-1])
+
+    monkeypatch.setattr(Statics, "solve", solve)
+    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
+    with pytest.raises(Seen) as seen:
+        bearing.equilibrium((1e5, 0.0), 20.0, Lubricant(0.03), **words)
+    return seen.value.args
 
 
 @pytest.mark.parametrize(("around", "shell", "share"), [
@@ -346,19 +363,15 @@ def test_a_film_that_has_no_other_cells_is_sought_on_its_own_with_all_effort(
     around: int, shell: Any, share: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """What a search keeps for more cells is lost where a shell may have no more."""
+    _, effort = first_effort(monkeypatch, shell=shell, grid=(around, 8))
+    assert 1.0 - effort.kept / effort.left == pytest.approx(share)
 
-    class Seen(Exception):
-        pass
 
-    def solve(film: Statics, *given: Any) -> Any:
-        effort = given[-1]
-        raise Seen(1.0 - effort.kept / effort.left)
-
-    monkeypatch.setattr(Statics, "solve", solve)
-    bearing = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
-    with pytest.raises(Seen) as seen:
-        bearing.equilibrium((1e5, 0.0), 20.0, Lubricant(0.03), shell=shell, grid=(around, 8))
-    assert seen.value.args[0] == pytest.approx(share)
+@pytest.mark.parametrize("grid", [(48, 8), (480, 120)])
+def test_on_any_cells_a_search_may_take_the_steps_of_three_solutions(grid, monkeypatch):
+    """On few of them it may take many more."""
+    seen, effort = first_effort(monkeypatch, grid=grid, inlet=None, max_iterations=50)
+    assert effort.steps(seen.film) >= 3 * seen.film.newton_steps(50)
 
 
 def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):

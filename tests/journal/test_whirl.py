@@ -5,8 +5,6 @@ import pytest
 import xarray as xr
 
 from loadflow.journal import JournalBearing, Lubricant
-from loadflow.planning.choice import error_of, rungs_up
-from loadflow.planning.ladder import measured
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages.comparisons import compare
@@ -88,21 +86,3 @@ def test_a_whirl_is_told_with_its_share_of_the_time():
     (said,) = warnings(xr.DataTree.from_dict({"journal": table}))
     assert "bearing N2" in said
     assert "2 of 2 load cases, start for 96 %" in said
-
-
-def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
-    film = {"motion": "transient", "rung": "reduced", "grid": (60, 20)}
-    scene = make_scene({"journal": film, "shaft": {"two_point": {}}})
-    errors = [
-        measured(scene, "journal", f"reduced, {cells}")["errors"]["minimum film"]["max"]
-        for cells in (60, 120, 240, 480)
-    ]
-    # were the next rung to move the film by as much as in the ladder, each rung has its error
-    own = error_of(scene, "journal", "minimum film", errors[0] - errors[1])
-    assert own == pytest.approx(errors[0])
-    for up in (1, 2, 3):
-        assert rungs_up(scene, "journal", "minimum film", own, 1.01 * errors[up]) == up
-    assert rungs_up(scene, "journal", "minimum film", own, 0.1 * errors[3]) == 3
-    assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
-    assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
-    assert error_of(scene, "journal", "not measured", 0.03) == 0.03
