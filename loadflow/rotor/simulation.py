@@ -184,8 +184,6 @@ def simulate_condition(
 ) -> xr.Dataset:
     """Loads over time in one wind of a load case, as `loadflow.wind.conditions` lists them.
 
-    Parameters and result are those of `simulate`; `winds` are the options that made the condition.
-
     Parameters
     ----------
     turbine, dt, run_in, base_seed, rung, options, field

@@ -250,7 +250,7 @@ class Composed(NamedTuple):
     feeding : Feeding
         What feeds those whose pressure is unknown.
     uneven : Uneven
-        Viscosity of the points.
+        Viscosity of the points, and what widens the gap from place to place.
     thickening : Thickening
         What their pressure makes of it.
     """

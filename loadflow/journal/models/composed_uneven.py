@@ -13,22 +13,23 @@ Array = NDArray[np.float64]
 
 
 class Uneven(NamedTuple):
-    """Viscosity that changes around and across, over that of the film, and growth of the gap.
+    """Viscosity that changes around and across, over that of the film, and what widens the gap so.
 
-    Friction then counts where there is liquid, as heat is made there.
+    That is growth by heat, and contours of the bore. Where viscosity changes, friction counts where
+    there is liquid, as heat is made there.
 
     Attributes
     ----------
     on : bool
-        Whether it does.
+        Whether viscosity does.
     cells, faces : array (nx, l)
         That against flow at the points, and on the way between those of each column and the next.
     shear, drags : array (nx, l)
         That under shear at the points; what is dragged on the ways, over that at one viscosity.
     grows : bool
-        Whether the gap has grown.
+        Whether the gap is wider in places.
     wider, wider_faces : array (nx, L)
-        Growth of the gap of points and ways beyond that of `Places`, clearances.
+        By how much at points and ways, beyond the depth of `Places`, clearances.
     beside : array (nx, g)
         The same at the places of `Yielding`.
     """
