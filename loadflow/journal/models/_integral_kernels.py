@@ -25,7 +25,7 @@ from loadflow.journal.models._composed_gap_kernels import (
 )
 from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._shell_growth_kernels import largest_growth
-from loadflow.journal.models._thickening_kernels import lost_more, pressure_at, thickness_at
+from loadflow.journal.models._thickening_kernels import THICK, pressure_at, thickness_at
 from loadflow.journal.models._touch_kernels import opened
 from loadflow.numerics.lanes import LANES, larger, put, spread, take
 
@@ -67,7 +67,8 @@ def summarise(film, work, q, wedge, rate, row):
         put(rows, wide + at, sheared_at)
         put(rows, 2 * wide + at, liquid_at)
         put(rows, 3 * wide + at, volume_at)
-    dissipation, shear, liquid, volume = lost_more(film, work) - _cut_off(film, work), 0.0, 0.0, 0.0
+    dissipation, shear = _lost_more(film, work) - _cut_off(film, work), 0.0
+    liquid, volume = 0.0, 0.0
     for k in range(nodes.z.size):
         dissipation, shear = dissipation + rows[0, k], shear + rows[1, k]
         liquid, volume = liquid + rows[2, k], volume + rows[3, k]
@@ -164,6 +165,28 @@ def _share_above(here, there, floor):
     if min(here, middle) >= floor:
         return 1.0
     return max(max(here, middle) - floor, 0.0) / max(abs(here - middle), 1e-300)
+
+
+@beside(lambda film, work: 0.0)
+def _lost_more(film, work):
+    """What the flow by pressure loses more than what drives it tells."""
+    total, nodes, ring = 0.0, film.nodes, film.ring
+    if film.thickening.on:
+        nx, m = ring.cos.size, nodes.slopes.shape[1]
+        p, cube, flows = work.state[LOAD], work.gap[CUBE], work.face[FLOW]
+        for i in range(nx):
+            right = i + 1 if i + 1 < nx else 0
+            across = 0.0 if ring.groove[i] else ring.width[i]
+            for k in range(nodes.z.size):
+                more = thickness_at(film, work, i, k) - 1.0
+                slope = work.slope[i, k]
+                total += nodes.weights[k] * cube[i, k] * slope * slope * across * more
+            for k in range(m):
+                both = 0.5 * (work.thick[THICK, i, k] + work.thick[THICK, right, k])
+                rise = p[right, k] - p[i, k]
+                less = 1.0 / both - 1.0
+                total += nodes.weights[k] * flows[i, k] * rise * rise * less / ring.apart[i]
+    return total
 
 
 @once

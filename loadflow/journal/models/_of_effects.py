@@ -1,8 +1,9 @@
 """Kernels of effects that many films have none of, which are not compiled for those.
 
-A film of smooth surfaces, of laminar flow and without a supply is a `SmoothFilm` by its type. What
-stands for asperities, turbulence and grooves in the loops of others took a quarter of the time of
-compiling them; what stands for a shell that gives way all over, of a `ShelledFilm`, a third.
+A film of smooth surfaces, of laminar flow, of one viscosity and without a supply is a `SmoothFilm`
+by its type. What stands for asperities, turbulence and grooves in the loops of others took a
+quarter of the time of compiling them; what stands for a shell that gives way all over, of a
+`ShelledFilm`, a third.
 """
 
 from __future__ import annotations

@@ -5,18 +5,29 @@ from __future__ import annotations
 from loadflow.journal.models._compile import inner, once
 
 
+@inner
+def _bring_pivot(rows, j, size, wide):
+    """Swap with row `j` that of the pivot of its column; the number of that, −1 if none has one.
+
+    Of `size` rows, of `wide` numbers.
+    """
+    best = j
+    for i in range(j + 1, size):
+        if abs(rows[i, j]) > abs(rows[best, j]):
+            best = i
+    if not abs(rows[best, j]) > 0.0:
+        return -1
+    for k in range(wide):
+        rows[j, k], rows[best, k] = rows[best, k], rows[j, k]
+    return best
+
+
 @once
 def solve_system(system, size):
     """Solve the linear `system` (size, size + 1) in place with pivots; False if it is singular."""
     for j in range(size):
-        best = j
-        for i in range(j + 1, size):
-            if abs(system[i, j]) > abs(system[best, j]):
-                best = i
-        if not abs(system[best, j]) > 0.0:
+        if _bring_pivot(system, j, size, size + 1) < 0:
             return False
-        for k in range(size + 1):
-            system[j, k], system[best, k] = system[best, k], system[j, k]
         for i in range(size):
             if i != j:
                 factor = system[i, j] / system[j, j]
@@ -40,15 +51,9 @@ def eliminate(matrix, order):
     """Factors of a square `matrix`, in place, and the rows taken in turn; False if singular."""
     size = order.size
     for j in range(size):
-        best = j
-        for i in range(j + 1, size):
-            if abs(matrix[i, j]) > abs(matrix[best, j]):
-                best = i
-        if not abs(matrix[best, j]) > 0.0:
+        order[j] = _bring_pivot(matrix, j, size, size)
+        if order[j] < 0:
             return False
-        order[j] = best
-        for k in range(size):
-            matrix[j, k], matrix[best, k] = matrix[best, k], matrix[j, k]
         for i in range(j + 1, size):
             matrix[i, j] /= matrix[j, j]
             factor = matrix[i, j]

@@ -1,11 +1,15 @@
-"""Compiled: a liquid of a reduced film with effects that pressure thickens."""
+"""Compiled: a liquid of a reduced film with effects that pressure thickens.
+
+What drives its flow is the integral of the viscosity without pressure over that with it
+[Grubin 1949], as `composed_thick` tabulates it.
+"""
 
 from __future__ import annotations
 
-from loadflow.journal.cavitation import DP, LOAD, P
+from loadflow.journal.cavitation import DP, P
 from loadflow.journal.models._compile import inner
 from loadflow.journal.models._of_effects import beside
-from loadflow.journal.models._touch_kernels import of_table
+from loadflow.journal.models._table_kernels import of_table
 
 PRESSURE, THICK = range(2)  # of `work.thick`
 _RISE = 2.0  # of the logarithm of the viscosity in a Newton step
@@ -58,25 +62,3 @@ def share_of_rise(film, work, step, size):
                 if fall < 0.0 and -fall * share > most:
                     share = most / -fall
     return max(share, _LEAST)
-
-
-@beside(lambda film, work: 0.0)
-def lost_more(film, work):
-    """What the flow by pressure loses more than what drives it tells."""
-    total, nodes, ring = 0.0, film.nodes, film.ring
-    if film.thickening.on:
-        nx, m = ring.cos.size, nodes.slopes.shape[1]
-        p, cube, flows = work.state[LOAD], work.gap[3], work.face[0]
-        for i in range(nx):
-            right = i + 1 if i + 1 < nx else 0
-            across = 0.0 if ring.groove[i] else ring.width[i]
-            for k in range(nodes.z.size):
-                more = thickness_at(film, work, i, k) - 1.0
-                slope = work.slope[i, k]
-                total += nodes.weights[k] * cube[i, k] * slope * slope * across * more
-            for k in range(m):
-                both = 0.5 * (work.thick[THICK, i, k] + work.thick[THICK, right, k])
-                rise = p[right, k] - p[i, k]
-                less = 1.0 / both - 1.0
-                total += nodes.weights[k] * flows[i, k] * rise * rise * less / ring.apart[i]
-    return total

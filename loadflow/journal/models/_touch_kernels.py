@@ -11,6 +11,7 @@ from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models._compile import inner
 from loadflow.journal.models._of_effects import beside, of_shell
 from loadflow.journal.models._small_systems import fill_upper
+from loadflow.journal.models._table_kernels import between, of_table
 
 
 @inner
@@ -47,8 +48,8 @@ def _touch_bore(film, work, q):
             continue
         place_in = (ratio - rough.first) / rough.step
         i = min(int(place_in), last)
-        force, rise = _between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
-        pressed, _ = _between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
+        force, rise = between(rough.table[0], rough.table[1], i, place_in - i, rough.step)
+        pressed, _ = between(rough.table[2], rough.table[3], i, place_in - i, rough.step)
         normal += w * pressed
         push(load, stiffness, z, ex / ratio, ey / ratio, w * force, w * rise, w * force / ratio)
     fill_upper(stiffness)
@@ -224,17 +225,6 @@ def _across(values, pressure, outside):
 
 
 @inner
-def of_table(yielding, row, h):
-    """A value of the table and its derivative; straight on before its first."""
-    place_in = (h - yielding.first) / yielding.step
-    if not place_in > 0.0:  # nor where a gap is no number
-        slope = yielding.table[row + 1, 0]
-        return yielding.table[row, 0] + (h - yielding.first) * slope, slope
-    i = min(int(place_in), yielding.table.shape[1] - 2)
-    return _between(yielding.table[row], yielding.table[row + 1], i, place_in - i, yielding.step)
-
-
-@inner
 def push(load, stiffness, z, c, s, force, along, aside):
     """Add a force at `z` that pushes the shaft back from (c, s), and what it rises by there.
 
@@ -267,15 +257,3 @@ def _take_modes(stiffness, z, xx, xy, yy):
     stiffness[3, 1] -= z * xy
     stiffness[3, 2] += z * z * xy
     stiffness[3, 3] -= z * z * xx
-
-
-@inner
-def _between(values, slopes, i, t, step):
-    """Cubic through values and slopes at i and i + 1, and its slope; straight on beyond."""
-    if t > 1.0:
-        return values[i + 1] + (t - 1.0) * step * slopes[i + 1], slopes[i + 1]
-    a, b = values[i], values[i + 1]
-    u, v = step * slopes[i], step * slopes[i + 1]
-    second, third = 3.0 * (b - a) - 2.0 * u - v, 2.0 * (a - b) + u + v
-    value = a + t * (u + t * (second + t * third))
-    return value, (u + t * (2.0 * second + 3.0 * t * third)) / step
