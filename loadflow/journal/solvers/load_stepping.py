@@ -151,25 +151,22 @@ def solve_elastic_in_steps(
     Where asperities touch, the second comes first: it takes a third of the time. Both end with the
     `effort`.
     """
-    asked, spent = (film, force, position, tolerance, effort, free), 0
+    asked = film, force, position, tolerance, effort, free
     by_shell: Solution | None = None
     if film.contact is not None:
         by_shell = solve_by_stiffness(*asked)
-        spent += by_shell.iterations
         if by_shell.converged or effort.over:
             return by_shell
     by_load = solve_in_load_steps(*asked)
-    spent += by_load.iterations
     if by_load.converged or film.clearance_left(by_load.position) <= APART:
-        return replace(by_load, iterations=spent)
+        return by_load
     if by_shell is None and not effort.over:
         by_shell = solve_by_stiffness(*asked)
-        spent += by_shell.iterations
         if by_shell.converged or by_shell.residual < by_load.residual:
-            return replace(by_shell, iterations=spent)
+            return by_shell
     film.relax()
     film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
-    return replace(by_load, iterations=spent)
+    return by_load
 
 
 def solve_from_held(

@@ -232,6 +232,4 @@ def solve_beyond_fold(
     else:
         return reached
     found = solve_along_path(film, force, held, *limits, effort, free)
-    spent = reached.iterations + held.iterations + found.iterations
-    ended = found.converged or has_touched(film, found)
-    return replace(found if ended else reached, iterations=spent)
+    return found if found.converged or has_touched(film, found) else reached

@@ -417,6 +417,7 @@ class Statics:
     ) -> Solution:
         """Equilibrium where Newton finds none at once."""
         film, free = self.film, self._free(pads)
+        given = film, force, estimate, *limits, effort, free
         if film.elastic:
             return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free)
         if pads.size:
@@ -426,14 +427,12 @@ class Statics:
             if on_pads.converged:
                 return on_pads
             self._on_pads(pads)
-            held = solve_from_held(film, force, estimate, *limits, effort, free)
+            held = solve_from_held(*given)
             told = held.converged or has_touched(film, held) or not on_pads.lost.size
             return held if told else on_pads
         if self.gap.pads.size or not self._has_path:
-            return solve_from_held(film, force, estimate, *limits, effort, free)
-        return solve_from_held(
-            film, force, estimate, *limits, effort, free, _LONG
-        )  # a path goes on
+            return solve_from_held(*given)
+        return solve_from_held(*given, _LONG)  # a path goes on
 
     def _effort(self, control: Limits) -> Effort:
         """What the searches for one film may take."""
