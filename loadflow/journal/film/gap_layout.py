@@ -14,7 +14,7 @@ from loadflow.journal.relief import Relief
 from loadflow.journal.shapes import Segment
 
 Array = NDArray[np.float64]
-_FINE = np.radians(0.5)  # distance of the angles at which the narrowest gap is sought
+_FINE = np.radians(0.5)  # largest distance of the angles at which the narrowest gap is sought
 
 
 @dataclass(frozen=True)
@@ -190,10 +190,7 @@ class Layout:
     def _sample(self, mesh: ShapedMesh, bore: Bore) -> None:
         """Places at which the narrowest gap is sought: H_0, cosine and sine, modes there."""
         columns = np.flatnonzero(~mesh.groove)
-        parts = [
-            np.linspace(mesh.edges[i], mesh.edges[i + 1], 2 + int(mesh.dx[i] / _FINE))
-            for i in columns
-        ]
+        parts = [angles_between(mesh.edges[i], mesh.edges[i + 1]) for i in columns]
         self.angle = np.concatenate(parts)
         self.segment = np.repeat(mesh.segment[columns], [part.size for part in parts])
         self.spots_z = mesh.z_edges if self.z.size > 1 else self.z
@@ -223,6 +220,11 @@ class Layout:
                 way = min(max(-0.5 * slope / bend, before), behind)
                 least, angle = least + (slope + bend * way) * way, angle + way
         return least, angle, z
+
+
+def angles_between(start: float, end: float) -> Array:
+    """Angles from `start` to `end`, rad, at which the narrowest gap is sought."""
+    return np.linspace(start, end, 2 + int((end - start) / _FINE))
 
 
 def _beside(angle: Array, segment: NDArray[np.int64], closed: bool) -> NDArray[np.int64]:

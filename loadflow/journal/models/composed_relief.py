@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap_layout import Bore, angles_between
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed_film import Places
 from loadflow.journal.models.composed_uneven import Uneven
@@ -19,7 +19,6 @@ Array = NDArray[np.float64]
 _ON_A_CROWN = 3  # points that either end of a relief asks for: two leave its side flow 8 % off
 _WIDENED = 0.01  # of the largest depth
 _BETWEEN = 129  # places across at which the narrowest gap of a relief is sought
-_AROUND = np.radians(0.5)  # between the angles at which that of a contour is sought
 
 
 def depth_at(bearing: JournalGeometry, z: Array) -> Array:
@@ -71,7 +70,7 @@ def least_gap(bearing: JournalGeometry, centres: Array, places: Places) -> Array
     spans = [(part.start, part.end) for part in parts] or [(0.0, 2.0 * np.pi)]
     least = np.full(len(centres), np.inf)
     for number, (start, end) in enumerate(spans):
-        angle = np.linspace(start, end, 2 + int((end - start) / _AROUND))
+        angle = angles_between(start, end)
         gap = bore.gap(angle, np.full(angle.size, number), places.z) + places.depth
         facing = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
         closer = np.einsum("ac,nfc->naf", facing, centres)
