@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Generator, Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,6 +17,7 @@ from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_error import Judged
+from loadflow.journal.models.composed_film import Composed
 from loadflow.journal.models.composed_model import ComposedFilm, build, contact_share, unknowns_on
 from loadflow.journal.models.composed_supply import falls_dry
 from loadflow.journal.models.composed_thick import less_thickening, thickening_of
@@ -199,19 +200,27 @@ class _Loads:
         self, model: ComposedFilm, force: Array, speed: Array, lines: Array, control: Limits
     ) -> None:
         self.model, self.force, self.speed, self.lines = model, force, speed, lines
-        self.given = force, speed, lines, control
         self.control, self.loads = control, model.loads(force)
         self.places = model.estimates(force, speed, lines)
 
     def solve(
-        self, place: Array, n: int, size: int | None = None, slopes: Array = _NO_SLOPES
+        self,
+        place: Array,
+        n: int,
+        size: int | None = None,
+        slopes: Array = _NO_SLOPES,
+        film: Composed | None = None,
     ) -> Array:
-        """Row of load `n`; `place` moves in `size` coordinates to where it is carried."""
+        """Row of load `n`; `place` moves in `size` coordinates to where it is carried.
+
+        A `film` that is given takes the place of that of the model.
+        """
         model, this, row = self.model, slice(n, n + 1), np.zeros((1, self.model.columns))
         solve(
-            model.film, model.work, place, model.size if size is None else size, 0, _AT_REST,
-            self.loads[this], self.lines[this], self.speed[this], self.control.tolerance,
-            self.control.max_iterations, np.inf, row, slopes, COLD, standing_states(1),
+            model.film if film is None else film, model.work, place,
+            model.size if size is None else size, 0, _AT_REST, self.loads[this], self.lines[this],
+            self.speed[this], self.control.tolerance, self.control.max_iterations, np.inf, row,
+            slopes, COLD, standing_states(1),
         )  # fmt: skip
         return row[0]
 
@@ -266,8 +275,7 @@ class _Loads:
         while step >= _LEAST_THICKER:
             liquid = less_thickening(model.options.liquid, share)
             film = model.film._replace(thickening=thickening_of(liquid, model.units.p_edge))
-            less = _Loads(replace(model, film=film), *self.given)
-            row = less.solve(place, n)
+            row = self.solve(place, n, film=film)
             spent += int(row[at.ITERATIONS])
             if row[at.CONVERGED] > 0.0 and share == 1.0:
                 yield Start(place, spent=spent)
