@@ -137,7 +137,7 @@ class Statics:
         to `meshes` others, as long as the `effort` lasts.
         """
         refine, effort = self.can_refine, effort or self._effort(control)
-        others = self.film.elastic and meshes > 0 and self._may_crowd(omega)
+        others = self.film.elastic and meshes > 0 and self._may_double(omega)
         effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
         effort.kept = 0.0
@@ -152,14 +152,12 @@ class Statics:
         left = meshes if self.gap.axisymmetric else meshes - 1
         return crowded.resolve(index, load, omega, None, control, left, effort)
 
-    def _may_crowd(self, omega: float) -> bool:
-        """Whether there may be other cells for a film in an elastic shell, as `_crowded` tells."""
-        if omega == 0.0:
-            return False
-        if self.gap.axisymmetric:
-            return self.options.supply is not None
+    def _may_double(self, omega: float) -> bool:
+        """Whether a film in an elastic shell may have twice the cells around."""
         shell, around = self.options.shell, self.options.cells[0]
-        return shell is not None and shell.any_grid and 2 * around <= _MOST_AROUND[shell.local]
+        if omega == 0.0 or shell is None or not shell.any_grid:
+            return False
+        return 2 * around <= _MOST_AROUND[shell.local]
 
     def _crowded(self, solution: Solution) -> Statics | None:
         """The film on cells that crowd where the gap of a `solution` closes; None: as before."""
@@ -183,7 +181,7 @@ class Statics:
         so fast that the film has no answer on cells as long.
         """
         around, across = self.options.cells
-        if not self._may_crowd(self.film.speed) or self.film.dry(solution.u):
+        if not self._may_double(self.film.speed) or self.film.dry(solution.u):
             return None
         if self.film.clearance_left(solution.position) <= APART:
             return None
