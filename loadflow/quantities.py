@@ -128,7 +128,7 @@ def load_cases(count: int) -> str:
 
 
 def three_digits(value: float) -> str:
-    """Return a number with three significant digits, without an exponent where it can be read.
+    """Return a number with three digits, and all of those before its point up to ten million.
 
     Examples
     --------

@@ -24,6 +24,7 @@ from loadflow.report.run_charts import over_wind_speed, seed_verdicts
 from loadflow.running.answers_page import answer_row
 from loadflow.running.report_page import _spread, _took, report_is_current, write_report
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
+from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import make_scene
 from loadflow.studies.tolerances import Band
 from loadflow.verdict import Verdict, to_dataset
@@ -237,6 +238,28 @@ def test_a_test_without_p_values_has_no_frame():
     chart = seed_verdicts(seeds, "as-printed", "tests")
     assert [panel.label for panel in chart.panels] == ["p of location"]
     assert chart.panels[0].lines["N Fz"].tolist() == [0.2, 1e-12]
+
+
+def test_many_starts_and_a_large_worn_volume_are_written_out():
+    """As the rest of a report: a life of 20,000 starts has no exponent."""
+    each = ("minimum_film", "contact_speed", "contact_time", "contact_pressure", "contact_energy",
+            "friction_energy")  # fmt: skip
+    bore = xr.Dataset(
+        {
+            **{name: (("renewal", "cycle"), [[2e7], [1e-6]]) for name in each},
+            "depth_of_bore": (("angle", "axial"), [[0.0], [1.08e-5]]),
+            "roughness": ("renewal", [5e-7, 4e-7]),
+            "count": ("cycle", [2e4]),
+        },
+        {"angle": [0.0, 1.0], "cycle": ["start"]},
+        {"cycles": 1, "volume": 1.37e-5},
+    )
+    worn, each_start = wear_section({"N": bore}).tables
+    assert worn.rows == [["N", "1", "10.8", "13700", "57.3 … 57.3", "0.4"]]
+    assert [row[:2] for row in each_start.rows] == [
+        ["start N, new", "20000"], ["start N, worn", "20000"],
+    ]  # fmt: skip
+    assert each_start.rows[0][-1] == "20000"
 
 
 def test_answers_have_a_unit_that_fits_on_value_and_interval():

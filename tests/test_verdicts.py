@@ -1,6 +1,7 @@
 """Verdicts of a run: the right load, the right limit, its source, and what governs."""
 
 import json
+import math
 
 import numpy as np
 import pytest
@@ -262,6 +263,26 @@ def test_the_material_carries_less_the_warmer_it_is():
     assert limits.pressure_at((127 + 190) / 2 + 273.15) == pytest.approx(4.2e6)
     assert limits.pressure_at(190 + 273.15) == pytest.approx(1.4e6)
     assert limits.pressure_at(500.0) == 0.0
+    assert limits.pressure_at(math.nan) == 7e6  # nobody knows how warm it is
+
+
+def test_the_largest_film_pressure_says_where_no_temperature_is_computed(run):
+    """Of a cold bearing beside a warm one, too."""
+    scene, found = scene_of("unused.h5"), tables(run)
+    film = found["journal"].drop_vars("largest_temperature", errors="ignore")
+    there = xr.full_like(film["largest_pressure"], math.nan)
+    there.loc[{"bearing": "N"}] = 463.15
+    partly = found | {"journal": film.assign(largest_temperature=there)}
+    cold = "temperature not computed: the film has one viscosity"
+    for numbers, expected in (
+        (found | {"journal": film}, {"journal N": (cold, 7e6), "journal N2": (cold, 7e6)}),
+        (partly, {"journal N": ("", 1.4e6), "journal N2": (cold, 7e6)}),
+    ):
+        judged = verdicts(scene, numbers, run_lifetime(scene, numbers))
+        told = {v.subject: v for v in judged if v.quantity == "largest film pressure"}
+        for subject, (note, limit) in expected.items():
+            assert told[subject].note == note
+            assert told[subject].limit == pytest.approx(limit)
 
 
 def test_the_oil_lasts_as_the_table_of_the_source_says():

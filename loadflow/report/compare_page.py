@@ -148,18 +148,18 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
         around.append(("models", _by_models(number["error"])))
     if number["tolerance_low"] is not None:
         band = _ends(number, "tolerance_low", "tolerance_high")
-        around.append((_BAND["tolerances"], f"{band}, {number['tolerance']}"))
+        around.append((_BESIDE["tolerances"], f"{band}, {number['tolerance']}"))
     sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
     link = f"#{name}" if _is_extreme(number) else ""
     where, note = _where(number | {"note": ""}), number["note"]
-    missing = tuple((_BAND.get(what, what), why) for what, why in number["missing"].items())
+    missing = tuple((_BESIDE.get(what, what), why) for what, why in number["missing"].items())
     value = three_digits(number["value"])
     return Cell(value, tuple(around), limit, where, note, state, link, "", missing)
 
 
-_BAND = {"tolerances": "tol."}
+_BESIDE = {"tolerances": "tol."}  # what is written short beside the numbers
 
 
 def _by_models(error: float) -> str:
@@ -184,12 +184,9 @@ def _where(number: Mapping[str, Any]) -> str:
 
 
 def short(value: float) -> str:
-    """A number in three digits, without an exponent where it can be read."""
-    if value == 0:
-        return "0"
-    if 1e-3 <= abs(value) < 1e3:
-        return f"{value:.3g}"
-    return f"{value:,.0f}" if 1e3 <= abs(value) < 1e7 else f"{value:.2e}"
+    """A number with three digits, without those behind its point that are 0 at the end."""
+    text = three_digits(value)
+    return text.rstrip("0").rstrip(".") if "." in text and "e" not in text else text
 
 
 UNITS = {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import four_digits
 from loadflow.report import Section, Table
 
 _EACH = (
@@ -31,8 +32,8 @@ def wear_section(bearings: dict[str, xr.Dataset]) -> Section:
             [
                 name,
                 f"{data.attrs['cycles']}",
-                f"{1e6 * depth.max():.4g}",
-                f"{1e9 * data.attrs['volume']:.4g}",
+                four_digits(1e6 * depth.max()),
+                four_digits(1e9 * data.attrs["volume"]),
                 f"{spread[0]:.3g} … {spread[-1]:.3g}" if spread.size else "-",
                 f"{1e6 * float(data['roughness'][-1]):.3g}",
             ]
@@ -40,10 +41,10 @@ def wear_section(bearings: dict[str, xr.Dataset]) -> Section:
         for k, cycle in enumerate(data["cycle"].values):
             for words, which in (("new", 0), ("worn", -1)):
                 cells = [
-                    f"{unit * float(data[key].isel(renewal=which, cycle=k)):.4g}"
+                    four_digits(unit * float(data[key].isel(renewal=which, cycle=k)))
                     for key, _, unit in _EACH
                 ]
-                count = f"{float(data['count'][k]):.4g}"
+                count = four_digits(float(data["count"][k]))
                 before_after.append([f"{cycle} {name}, {words}", count, *cells])
     heads = ["bearing", "load cases that touch", "depth, µm", "volume, mm³",
              "worn from … to, ° from straight down", "roughness left, µm"]  # fmt: skip

@@ -16,8 +16,6 @@ from loadflow.scene.scene import Scene, make_scene
 def with_loads(scene: Scene, files: list[str], **reading: Any) -> Scene:
     """Return the scene with its load series read from `files` (names or glob patterns).
 
-    `reading` are those keys of `Loads` that say how files are read; None leaves the scene's.
-
     Parameters
     ----------
     scene : Scene

@@ -78,9 +78,12 @@ class FilmLimits(Section, BaseModel):
         return self.minimum_film or contact_film + self.waviness + self.margin
 
     def pressure_at(self, temperature: float) -> float:
-        """Largest film pressure, Pa, that the material carries at a temperature, K."""
+        """Largest film pressure, Pa, that the material carries at a temperature, K.
+
+        NaN is a temperature that no one knows: then it counts as cold.
+        """
         (low, first), *_ = self.material
-        if temperature <= low:
+        if math.isnan(temperature) or temperature <= low:
             return first
         for (t0, p0), (t1, p1) in zip(self.material, self.material[1:]):
             if temperature <= t1:

@@ -48,8 +48,7 @@ def message(
         elif item["type"] == "missing":
             lines.append(f"{source}: {key}: this key is missing")
         elif item["type"] == "value_error":
-            several = reason.splitlines() if key == "scene" else [reason]  # of many bearings
-            lines += [f"{source}: {key}: {one}" for one in several]
+            lines += [f"{source}: {key}: {one}" for one in reason.splitlines()]
         elif item["type"] in _NO_TABLE:
             known = _known(item["loc"], _schema(model))
             keys = ", ".join(path for path, name in known if path == name)

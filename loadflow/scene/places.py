@@ -7,7 +7,8 @@ here one form becomes the other.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -90,18 +91,25 @@ def sections_of(places: Any, where: Location = ("bearings",)) -> Sections:
     if not isinstance(places, Mapping) or not places:
         raise ValueError(f"{name}: needs a table for each place, such as [{name}.N]")
     found = Sections()
-    wrong = []
+    wrong: list[str] = []
     for place, stated in places.items():
         several = isinstance(stated, list)
         for number, data in enumerate(stated if several else [stated]):
             location = (*where, place, number) if several else (*where, place)
-            try:
+            with told_later(wrong):
                 _add(found, place, location, _stated(places, place, location, data))
-            except ValueError as error:
-                wrong.append(str(error))
     if wrong:
         raise ValueError("\n".join(wrong))
     return found
+
+
+@contextmanager
+def told_later(wrong: list[str]) -> Iterator[None]:
+    """Add what is wrong with some bearings to the rest of it, to tell all of it at once."""
+    try:
+        yield
+    except ValueError as error:
+        wrong.append(str(error))
 
 
 def _add(found: Sections, place: str, location: Location, data: dict[str, Any]) -> None:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from loadflow.numerics.fields import meant
 from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of, machine_names
 from loadflow.scene.own_shaft import own_shaft
-from loadflow.scene.places import Location, sections_of
+from loadflow.scene.places import Location, sections_of, told_later
 from loadflow.scene.tolerances import taken_out
 from loadflow.schemas import Schema
 from loadflow.turbines import load_turbine, turbine_names
@@ -75,7 +74,7 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
         read["shaft"] = shaft
     wrong: list[str] = []
     if "bearings" in read:
-        with _told_later(wrong):
+        with told_later(wrong):
             sections = sections_of(_placed(read.pop("bearings"), turbine)).data
             if twice := sorted(set(sections) & set(read)):
                 raise ValueError(f"bearings: beside [{twice[0]}]; write all as [bearings.PLACE]")
@@ -86,20 +85,11 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     if isinstance(candidates := read.get("candidates"), dict):
         read["candidates"] = dict(candidates)
         for name, stated in candidates.items():
-            with _told_later(wrong):
+            with told_later(wrong):
                 read["candidates"][name] = _candidate(name, stated, turbine)
     if wrong:
         raise ValueError("\n".join(wrong))
     return read
-
-
-@contextmanager
-def _told_later(wrong: list[str]) -> Iterator[None]:
-    """Add what is wrong with some bearings to the rest of it, to tell all of it at once."""
-    try:
-        yield
-    except ValueError as error:
-        wrong.append(str(error))
 
 
 def _candidate(name: str, stated: Any, turbine: str) -> Any:

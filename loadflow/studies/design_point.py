@@ -240,8 +240,7 @@ def _tilt(samples: xr.Dataset) -> np.ndarray:
 
 def allowed_pressure(options: Journal, answer: Any, worst: int) -> float:
     """Largest film pressure, Pa, that the material carries where a sample's film is as warm."""
-    coldest = options.limits.material[0][0]
-    kelvin = float(answer.temperature[worst]) if options.heat is not None else coldest
+    kelvin = float(answer.temperature[worst]) if options.heat is not None else math.nan
     return options.limits.pressure_at(kelvin)
 
 

@@ -204,7 +204,7 @@ class Designs:
                     "that were run."
                 )
             if math.isfinite(most):
-                return f"{told}; the widest margin that was found is {most:.3g}."
+                return f"{told}; the widest margin that was found is {three_digits(most)}."
             return f"{told}."
         words = ", ".join(f"{_short(key)} {v}" for key, v in self.settings.items())
         energy, factor = (found.numbers[key].value for key in ("energy", "load_factor"))

@@ -192,8 +192,8 @@ def space_of(scene: Scene, candidate: Candidate, design: Design) -> Space:
     friction = scene.friction.model_dump(mode="json", exclude_unset=True, exclude_none=True)
     keys = design.keys or default_keys(places)
     axes = tuple(_axis(key, variation, places, friction) for key, variation in keys.items())
-    about = candidate.title, candidate.source
-    space = Space(axes, places, friction, *about, written_collars(candidate))
+    collars = written_collars(candidate)
+    space = Space(axes, places, friction, candidate.title, candidate.source, collars)
     for axis in axes:
         _check_key(space, axis)
     return space

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import four_digits
 from loadflow.reduction import LongTermExtreme
 from loadflow.report import Drawing, Picture, Section, Table, load_figures, write_page
 from loadflow.report.page import Shown
@@ -165,7 +166,7 @@ def case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
     heads += [f"{name}, m = {m:g}, kN" for m in options.exponents for name in loaded.values()]
     known = life.equivalent[:, [*loaded]]
     rows = [
-        [case, f"{share:.4%}", *(f"{v / 1e3:.4g}" for v in known[..., k].ravel())]
+        [case, f"{share:.4%}", *(four_digits(v / 1e3) for v in known[..., k].ravel())]
         for k, (case, share) in enumerate(zip(life.cases, life.shares.tolist()))
     ]
     note = _zero(_unloaded(life))
@@ -181,9 +182,9 @@ def tail_tables(life: BearingLifetime) -> list[Table]:
         [
             f"{speed:g}",
             f"{tail.threshold / 1e3:.5g}",
-            f"{tail.scale / 1e3:.4g}",
+            four_digits(tail.scale / 1e3),
             f"{tail.shape:.3g}",
-            f"{tail.rate * 3600:.4g}",
+            four_digits(tail.rate * 3600),
             str(tail.count),
             f"{share:.1%}",
         ]

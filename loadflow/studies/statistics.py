@@ -12,6 +12,7 @@ import xarray as xr
 
 from loadflow.cube import Cube, iter_cases
 from loadflow.plots.style import readable
+from loadflow.quantities import four_digits
 from loadflow.report import Section, Table, write_page
 from loadflow.stages.statistics import SLOPE, STATISTICS, describe
 from loadflow.studies.channels import channel, choose_channels
@@ -101,7 +102,7 @@ def extreme_rows(extremes: xr.Dataset) -> list[list[str]]:
             str(row["case"].item()),
             f"{row['time'].item():.6g}",
             f"{row['safety_factor'].item():g}",
-            *(f"{value:.4g}" for value in row["load"].values * factors),
+            *map(four_digits, row["load"].values * factors),
         ]
         for row in (extremes.isel(extreme=k) for k in range(extremes.sizes["extreme"]))
     ]

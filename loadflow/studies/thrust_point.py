@@ -67,7 +67,7 @@ def thrust_point(bearing: AnyAxial, force: Load, moment: Load, speed: float) -> 
     full = np.array([*moment, 0.0])
     answer = bearing.solve(np.asarray(force, float), full, speed)
     kelvin = getattr(answer, "temperature", math.nan)  # cones have no heat
-    limit = bearing.limits.pressure_at(kelvin if math.isfinite(kelvin) else 0.0)
+    limit = bearing.limits.pressure_at(kelvin)
     rows = {
         name: (getattr(answer, name), units, meaning)
         for name, (_, units, meaning) in answer.told().items()

@@ -378,8 +378,7 @@ def _margins_of_pads(
     thin, hard = int(np.nanargmin(film)), int(np.nanargmax(pressure))
     under = against_bore(grown(some.isel(sample=[thin, hard]), HEAVIER))
     heavier = pad_films(bearing, under, span=span)
-    kelvin = float(answer.temperature[hard])
-    allowed = bearing.limits.pressure_at(kelvin if math.isfinite(kelvin) else 0.0)
+    allowed = bearing.limits.pressure_at(float(answer.temperature[hard]))
     return load_margins(
         (film[thin] / bearing.least_film, allowed / pressure[hard]),
         (heavier.minimum_film[0] / film[thin], heavier.maximum_pressure[1] / pressure[hard]),

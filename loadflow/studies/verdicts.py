@@ -230,7 +230,7 @@ def _pressure(
     """Largest film pressure of a shaft that turns against the material at its temperature."""
     value, case, time = _worst(table, "largest_pressure", "most")
     if case:
-        note = "" if warm_in(table, case) else _ISOTHERMAL
+        note = _ISOTHERMAL if np.isnan(warm_in(table, case)) else ""
         yield _of_material(
             limits, subject, "largest film pressure", value, table, case, time, note, section
         )
@@ -252,11 +252,10 @@ def _of_standing(
 
 
 def warm_in(table: xr.Dataset, case: str) -> float:
-    """Largest temperature in a case, K; 0 where none is known."""
+    """Largest temperature in a case, K; NaN where none is known."""
     if "largest_temperature" not in table:
-        return 0.0
-    kelvin = float(table["largest_temperature"].sel(case=case))
-    return kelvin if np.isfinite(kelvin) else 0.0  # a bearing may be cold beside a warm one
+        return np.nan
+    return float(table["largest_temperature"].sel(case=case))  # NaN: cold beside a warm one
 
 
 def _of_material(

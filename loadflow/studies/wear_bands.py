@@ -115,19 +115,18 @@ def with_production(
     wear : Number
         Of ``journal.wear``.
     """
-    running = table["case"].values[runs_throughout(table)].tolist()
-    if wear.place not in bores or not running:
+    runs = runs_throughout(table)
+    if wear.place not in bores or not runs.any():
         return wear
-    share = dict(zip(table["case"].values.tolist(), shares_of(run, table).tolist()))
     life = run.scene.lifetime.years * HOURS_PER_YEAR * 3600.0
+    names = ("contact_power", "speed", "weight")
     rubbed = 0.0
-    for case in running:
-        names = ("contact_power", "speed", "weight")
+    for case, share in zip(table["case"].values[runs], shares_of(run, table)[runs]):
         film = read_variables(run.folder / "journal" / f"{case}.h5", names, wear.place)
         turns = turning(film) & np.isfinite(film["contact_power"].values)
         weight = film["weight"].values
         power = float((film["contact_power"].values * weight)[turns].sum() / weight.sum())
-        rubbed += power * share[case] * life
+        rubbed += power * float(share) * life
     data = bores[wear.place]
     starts = 0.0
     if data.attrs["cycles"]:

@@ -26,7 +26,7 @@ from loadflow.planning.effects import EffectVerdict, Estimates
 from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
 from loadflow.quantities import three_digits
-from loadflow.report.compare_page import _row, write_comparison
+from loadflow.report.compare_page import _row, short, write_comparison
 from loadflow.report.sketch import sketch
 from loadflow.running import kept_numbers
 from loadflow.running.candidates import candidate_scene, candidates_for
@@ -737,6 +737,14 @@ def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     assert row.limit == said
     [cell] = row.cells
     assert (cell.value, cell.state, cell.limit) == ("0.900", "good", "")
+
+
+@pytest.mark.parametrize(
+    ("limit", "said"),
+    [(0.0, "0"), (0.95, "0.95"), (10.0, "10"), (100.0, "100"), (999.7, "1,000"), (2e7, "2.00e+07")],
+)
+def test_a_limit_has_no_zeros_at_its_end_and_no_exponent_where_it_can_be_read(limit, said):
+    assert short(limit) == said
 
 
 def test_limits_that_differ_stand_in_each_cell():
