@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from loadflow.journal import JournalBearing, Lubricant
-from loadflow.planning.choice import error_of, rungs_up
+from loadflow.planning.accuracy import error_by_change, rungs_up
 from loadflow.planning.ladder import measured
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
@@ -98,11 +98,11 @@ def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
         for cells in (60, 120, 240, 480)
     ]
     # were the next rung to move the film by as much as in the ladder, each rung has its error
-    own = error_of(scene, "journal", "minimum film", errors[0] - errors[1])
+    own = error_by_change(scene, "journal", "minimum film", errors[0] - errors[1])
     assert own == pytest.approx(errors[0])
     for up in (1, 2, 3):
         assert rungs_up(scene, "journal", "minimum film", own, 1.01 * errors[up]) == up
     assert rungs_up(scene, "journal", "minimum film", own, 0.1 * errors[3]) == 3
     assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
     assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
-    assert error_of(scene, "journal", "not measured", 0.03) == 0.03
+    assert error_by_change(scene, "journal", "not measured", 0.03) == 0.03
