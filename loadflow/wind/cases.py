@@ -242,7 +242,7 @@ def load_case(dlc: str) -> LoadCase:
     Returns
     -------
     LoadCase
-        The row.
+        Its wind, speeds, events, safety and length.
 
     Raises
     ------
