@@ -160,7 +160,7 @@ def _better_films(
     if scene.journal.heat is None:
         warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
         yield HEAT.name, "oil warmed by its friction", warmer
-    other, against = _other_cells(scene)
+    other, against = other_cells(scene)
     if other is not None:
         options = {bearing: other.journal.at(bearing) for bearing in films}
         if other.journal.in_motion and other.journal.heat is not None:
@@ -171,7 +171,7 @@ def _better_films(
         yield FILM_MODEL.name, against, options
 
 
-def _other_cells(scene: Scene) -> tuple[Scene | None, str]:
+def other_cells(scene: Scene) -> tuple[Scene | None, str]:
     """The scene with the next finer film, and what that is called.
 
     Nothing is finer than the finest: half as many cells each way that they are refined stand in for
