@@ -10,8 +10,8 @@ import loadflow as lf
 from loadflow.cli import main
 from loadflow.errors import InputError
 from loadflow.planning import choice
-from loadflow.planning.accuracy import expected_errors
-from loadflow.planning.choice import choose, error_of, rungs_up
+from loadflow.planning.accuracy import error_by_change, expected_errors, rungs_up
+from loadflow.planning.choice import choose
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import expected_seconds, gains, ladder, measured
 from loadflow.planning.plan import make_plan
@@ -181,7 +181,7 @@ def test_given_loads_owe_nothing_to_a_wind(cube):
     assert "wind" not in plan.steps[0].rung
 
 
-def test_the_error_of_friction_is_known_and_grows_with_its_step():
+def test_the_error_by_change_friction_is_known_and_grows_with_its_step():
     errors = [
         expected_errors(scene_of(results=["rolling.friction"], friction={"step": step}))
         for step in (0.1, 0.4, 0.3)
@@ -203,7 +203,7 @@ def test_only_the_named_result_must_be_accurate():
     assert film_seconds(strict.scene) > 1.5 * film_seconds(loose.scene)
 
 
-def test_an_error_of_the_load_reaches_the_film_through_its_gain():
+def test_an_error_by_change_the_load_reaches_the_film_through_its_gain():
     scene = scene_of(loads={"rung": "tables"}, results=["journal.film"])
     top = scene_of(loads={"rung": "tower"}, results=["journal.film"])
     added = {
@@ -277,14 +277,14 @@ def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
         for cells in (60, 120, 240, 480)
     ]
     # were the next rung to move the film by as much as in the ladder, each rung has its error
-    own = error_of(scene, "journal", "minimum film", errors[0] - errors[1])
+    own = error_by_change(scene, "journal", "minimum film", errors[0] - errors[1])
     assert own == pytest.approx(errors[0])
     for up in (1, 2, 3):
         assert rungs_up(scene, "journal", "minimum film", own, 1.01 * errors[up]) == up
     assert rungs_up(scene, "journal", "minimum film", own, 0.1 * errors[3]) == 3
     assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
     assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
-    assert error_of(scene, "journal", "not measured", 0.03) == 0.03
+    assert error_by_change(scene, "journal", "not measured", 0.03) == 0.03
 
 
 def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):

@@ -8,9 +8,13 @@ from synthetic import case, cube_file
 import loadflow as lf
 from loadflow.cube import make_cube, save_cube
 from loadflow.planning.choice import finer
+from loadflow.planning.ladder import measured
 from loadflow.planning.plan import make_plan
-from loadflow.planning.verification import to_refine
+from loadflow.planning.verification import differences, to_refine
+from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
+from loadflow.stages.comparisons import other_cells
+from loadflow.stages.differences import Difference
 from loadflow.stages.paths_again import remembered
 
 FILM = {"grid": [24, 8], "bearings": ["N2"], "rung": "reduced"}
@@ -164,3 +168,44 @@ def test_a_model_is_refined_only_where_nothing_that_stays_is_further_off():
     assert to_refine(tree, lambda stage: stage != stays, lambda *row: 1) == ["rolling"]
     every = to_refine(tree, lambda stage: True, lambda stage, *row: 2 if stage == "journal" else 1)
     assert every == ["journal", "journal", stays, "rolling"]
+
+
+def test_a_film_is_off_by_more_than_the_next_cells_move_it_and_other_models_by_what_they_do(
+    monkeypatch,
+):
+    film = {"motion": "transient", "rung": "reduced", "grid": (60, 20)}
+    scene = make_scene({"accuracy": "given", "journal": film, "shaft": {"two_point": {}}})
+    rows = [
+        Difference(stage, "journal.film", "minimum film", "case", "another", 0.03)
+        for stage in ("journal", "heat of the film")
+    ]
+    monkeypatch.setattr("loadflow.planning.verification.compare", lambda *given: iter(rows))
+    one = Case("1.1", 12.0, 1)
+    found = differences(scene, [one], {one.name: {}})["difference"].values
+    coarse, fine = (
+        measured(scene, "journal", f"reduced, {cells}")["errors"]["minimum film"]["max"]
+        for cells in (60, 120)
+    )
+    assert found[0] == pytest.approx(0.03 / (1.0 - fine / coarse))
+    assert found[1] == 0.03
+
+
+@pytest.mark.parametrize(
+    ("film", "grid", "said"),
+    [
+        ({"motion": "transient", "rung": "reduced", "grid": (240, 20)}, (480, 20), "reduced, 480"),
+        ({"motion": "transient", "rung": "reduced", "grid": (480, 20)}, (240, 20), "half as fine"),
+        ({"rung": "grid", "grid": (480, 160)}, (240, 80), "half as fine"),
+    ],
+)
+def test_the_finest_cells_are_held_against_half_as_many(film, grid, said):
+    scene = make_scene({"accuracy": "given", "journal": film, "shaft": {"two_point": {}}})
+    other, against = other_cells(scene)
+    assert other.journal.grid == grid
+    assert said in against
+
+
+def test_a_film_without_cells_is_held_against_none():
+    film = {"rung": "map", "grid": (480, 160)}
+    scene = make_scene({"accuracy": "given", "journal": film, "shaft": {"two_point": {}}})
+    assert other_cells(scene) == (None, "")

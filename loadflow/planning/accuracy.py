@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from math import isnan
+from math import isfinite, isnan
 
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import gains, ladder, measured
@@ -226,3 +226,45 @@ def _left_out(scene: Scene, model: str) -> Iterator[Effect]:
     for effect in EFFECTS:
         if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
             yield effect
+
+
+# --- what a comparison with a finer rung says ----------------------------------------------------
+
+
+def error_by_change(scene: Scene, model: str, quantity: str, change: float) -> float:
+    """By how much a model is off, if the next finer rung changes an answer by so much.
+
+    Errors e of the ladder fall by the order of the cells or steps: the change is e_0 - e_1 of e_0
+    in all [Roache 1994]. The change itself where the ladder does not tell, as at its finest
+    rung.
+    """
+    known = _errors_up(scene, model, quantity)
+    if len(known) < 2:
+        return change
+    return change * known[0] / (known[0] - known[1])
+
+
+def rungs_up(scene: Scene, model: str, quantity: str, error: float, allowed: float) -> int:
+    """How many rungs finer a model has to be, for a quantity to be within what is allowed.
+
+    It is off by `error`, and k rungs finer by that times e_k/e_0 of the errors e of the ladder. The
+    finest of those that were measured, if none is good enough; 1 where the ladder does not tell.
+    """
+    known = _errors_up(scene, model, quantity)
+    if len(known) < 2 or not isfinite(error):
+        return 1
+    steps = range(1, len(known))
+    return next((k for k in steps if error * known[k] / known[0] <= allowed), steps[-1])
+
+
+def _errors_up(scene: Scene, model: str, quantity: str) -> list[float]:
+    """Errors of the rung of a model and of the finer ones, as far as they are known and fall."""
+    rungs, found = models().get(model), list[float]()
+    one: Scene | None = scene
+    while rungs is not None and one is not None:
+        error = _rung_error(one, rungs, quantity)
+        if error is None or (found and error >= found[-1]):
+            break
+        found.append(error)
+        one = rungs.finer(one)
+    return found

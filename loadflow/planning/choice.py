@@ -12,7 +12,7 @@ import numpy as np
 from loadflow.errors import InputError
 from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
 from loadflow.planning.effects import Estimates, concerned, is_valid, switched
-from loadflow.planning.ladder import choices, expected_seconds, measured
+from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
@@ -350,45 +350,6 @@ def refine(choice: Choice, names: Iterable[str]) -> Choice:
         reasons[_section(name)] = "refined: the coarser model differs too much on cases of this run"
     errors = expected_errors(scene, choice.estimates)
     return replace(choice, scene=scene, reasons=reasons, errors=errors)
-
-
-def rungs_up(scene: Scene, name: str, quantity: str, error: float, allowed: float) -> int:
-    """How many rungs finer a model has to be, for a quantity to be within what is allowed.
-
-    It is off by `error`, and by the errors e of the ladder, whose order is that of the cells or
-    steps, rung k is off by that times e_k/e_0. The finest of those that were measured, if none is
-    good enough; 1 where the ladder does not tell.
-    """
-    known = _errors_up(scene, name, quantity)
-    if len(known) < 2 or not np.isfinite([error, known[0]]).all():
-        return 1
-    good = np.flatnonzero(error * np.array(known[1:]) / known[0] <= allowed)
-    return int(good[0]) + 1 if good.size else len(known) - 1
-
-
-def error_of(scene: Scene, name: str, quantity: str, moved: float) -> float:
-    """By how much a model is off that the next finer one moves by so much.
-
-    That is e_0 - e_1 of the errors of the ladder, of e_0 in all. What it `moved` where the ladder
-    does not tell, as at its finest rung.
-    """
-    known = _errors_up(scene, name, quantity)
-    if len(known) < 2 or not np.isfinite(known[0]):
-        return moved
-    return moved * known[0] / (known[0] - known[1])
-
-
-def _errors_up(scene: Scene, name: str, quantity: str) -> list[float]:
-    """Errors of the ladder of a model and of the finer ones, as far as they fall."""
-    found: list[float] = []
-    one: Scene | None = scene
-    while one is not None and (known := measured(one, name)) is not None:
-        error = known.get("errors", {}).get(quantity, {}).get("max", np.inf)
-        if found and error >= found[-1]:
-            break
-        found.append(error)
-        one = finer(one, name)
-    return found
 
 
 def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:

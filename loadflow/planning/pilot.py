@@ -24,7 +24,7 @@ from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.plan import LITTLE, chosen_models, needed_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import move_together
+from loadflow.scene.shaft_place import any_moves_in_films
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, hardest
@@ -224,11 +224,11 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
     cases : tuple of Case
         All of the run.
     """
-    run = sum(expected_seconds(scene, name, cases) or 0.0 for name in needed_stages(scene))
+    run = _seconds(scene, needed_stages(scene), cases)
     simulated = 1 + sum(effect.model == "loads" for effect in effects)
     for effort in EFFORTS[:-1]:
         shorter, case = _short(scene, cases[0], effort.duration)
-        each = expected_seconds(shorter, "loads", (case,)) or 0.0
+        each = _seconds(shorter, ("loads",), (case,))
         if effort.cases * ((1 + simulated) * each + SOLVED) <= SHARE * run:
             return effort
     return EFFORTS[-1]
@@ -240,14 +240,16 @@ def _takes_long(chosen: Scene, effort: Effort, cases: tuple[Case, ...]) -> bool:
     Of starts and stops alone: the heat balance of films on asperities takes most of the time of
     such a case, so that a shorter one counts as a whole one.
     """
-    floats = any(
-        move_together(chosen.shaft, chosen.journal, concept) for concept in chosen.shaft.concepts
-    )
+    floats = any_moves_in_films(chosen.shaft, chosen.journal)
     if not floats or not comes_from_or_to_standstill(chosen):
         return False
-    run = sum(expected_seconds(chosen, name, cases) or 0.0 for name in needed_stages(chosen))
-    one = sum(expected_seconds(chosen, name, cases[:1]) or 0.0 for name in ("loads", "journal"))
-    return effort.cases * one > SHARE * run
+    one = _seconds(chosen, ("loads", "journal"), cases[:1])
+    return effort.cases * one > SHARE * _seconds(chosen, needed_stages(chosen), cases)
+
+
+def _seconds(scene: Scene, stages: Iterable[str], cases: tuple[Case, ...]) -> float:
+    """Processor time of stages over cases as far as the ladder knows it, s."""
+    return sum(expected_seconds(scene, name, cases) or 0.0 for name in stages)
 
 
 def _expected(scene: Scene, cases: tuple[Case, ...], solving: bool) -> tuple[Choice, Estimates]:

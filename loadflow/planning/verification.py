@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from loadflow.planning.accuracy import surely_small
-from loadflow.planning.choice import error_of
+from loadflow.planning.accuracy import error_by_change, surely_small
 from loadflow.planning.effects import estimates, switched
 from loadflow.quantities import percent
 from loadflow.scene.cases import Case
@@ -31,7 +30,7 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
     """Compare what `cases` gave with the next better model of each stage; dimension ``check``.
 
     Cells have an order, so that a film is off by more than the next finer one moves it, see
-    `loadflow.planning.choice.error_of`.
+    `loadflow.planning.accuracy.error_by_change`.
     """
     found = [
         row
@@ -130,7 +129,7 @@ def _off_by(scene: Scene, row: Difference) -> float:
     """Error of an answer by what a better model changes."""
     if row.stage != FILM_MODEL.name:
         return row.value
-    return error_of(scene, row.stage, row.quantity, row.value)
+    return error_by_change(scene, row.stage, row.quantity, row.value)
 
 
 def _allowed(scene: Scene, row: Difference) -> float:

@@ -7,6 +7,7 @@ import math
 import os
 import re
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from io import StringIO
 from pathlib import Path
 
@@ -129,6 +130,7 @@ def stem(path: Path) -> str:
     return re.sub(r"\.(?:[A-Za-z]\w*|[%$]\w+)$", "", path.name)
 
 
+@lru_cache(maxsize=10_000)  # plans ask again and again which load cases the files are
 def _said(name: str) -> tuple[str | None, float | None, int | None]:
     """Return load case, wind speed and seed as far as a name tells them."""
     dlc, end = _dlc(name)

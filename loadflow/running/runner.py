@@ -19,7 +19,8 @@ from threadpoolctl import threadpool_limits
 import loadflow
 from loadflow.errors import LoadflowError, SolverError
 from loadflow.planning import verification as check
-from loadflow.planning.choice import Choice, can_refine, refine, rungs_up
+from loadflow.planning.accuracy import rungs_up
+from loadflow.planning.choice import Choice, can_refine, refine
 from loadflow.planning.effects import EffectVerdict, concerned
 from loadflow.planning.pilot import Questions, pilot
 from loadflow.planning.plan import Plan, make_plan, needed_stages, plan_of

@@ -72,6 +72,11 @@ def move_together(shaft: Shaft, journal: Journal, concept: Concept) -> bool:
     return known and all(_followable(journal.at(name)) for name in concept.bearings)
 
 
+def any_moves_in_films(shaft: Shaft, journal: Journal) -> bool:
+    """Whether some suspension has its shaft and films followed together."""
+    return any(move_together(shaft, journal, concept) for concept in shaft.concepts)
+
+
 def seats_felt(shaft: Shaft, journal: Journal, concept: Concept) -> list[str]:
     """Bearings of a suspension whose seats hold the shaft: their supports take a moment."""
     felt = {name for name, support in shaft.coupled.items() if support.takes_moment}

@@ -45,10 +45,6 @@ SAMPLES = 5
 HEAT_CAPACITY = 2000.0  # J/(kg K), mineral oil
 THINNING = 0.035  # 1/K, relative loss of viscosity of a mineral oil of VG 100 … 320 near 50 °C
 
-
-COARSER = ", half as fine: by first order what it has is as far off as this moves"
-"""Against what the finest film is held, as nothing finer is."""
-
 _OF_SAMPLES = ("reduction", "journal", "rolling")
 """Stages whose comparisons take samples of the full series."""
 
@@ -164,26 +160,34 @@ def _better_films(
     if scene.journal.heat is None:
         warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
         yield HEAT.name, "oil warmed by its friction", warmer
-    better, than = FILM_MODEL.finer(scene), ""
-    if better is None:
-        better, than = _with_half_the_cells(scene), COARSER
-    if better is not None:
-        options = {bearing: better.journal.at(bearing) for bearing in films}
-        if better.journal.in_motion and better.journal.heat is not None:
+    other, against = other_cells(scene)
+    if other is not None:
+        options = {bearing: other.journal.at(bearing) for bearing in films}
+        if other.journal.in_motion and other.journal.heat is not None:
             options = {
                 bearing: options[bearing].at_temperature(float(film["temperature"].median()))
                 for bearing, film in films.items()
             }
-        yield FILM_MODEL.name, f"the film {FILM_MODEL.key(better)}{than}", options
+        yield FILM_MODEL.name, against, options
 
 
-def _with_half_the_cells(scene: Scene) -> Scene | None:
-    """The scene with the film on half as many cells each way it is refined; None without cells."""
+def other_cells(scene: Scene) -> tuple[Scene | None, str]:
+    """The scene with the next finer film, and what that is called.
+
+    Nothing is finer than the finest: half as many cells each way that they are refined stand in for
+    it; None without cells.
+    """
+    finer = FILM_MODEL.finer(scene)
+    if finer is not None:
+        return finer, f"the film {FILM_MODEL.key(finer)}"
     around, across = scene.journal.grid
     half = {"reduced": (around // 2, across), "grid": (around // 2, across // 2)}
-    if scene.journal.rung not in half:
-        return None
-    return with_settings(scene, "journal", {"grid": half[scene.journal.rung]})
+    grid = half.get(scene.journal.rung)
+    coarser = with_settings(scene, "journal", {"grid": grid}) if grid else None
+    if coarser is None:
+        return None, ""
+    moves = "half as fine: by first order what it has is as far off as this moves"
+    return coarser, f"the film {FILM_MODEL.key(coarser)}, {moves}"
 
 
 def _warmer(options: Journal, film: xr.Dataset) -> Journal:

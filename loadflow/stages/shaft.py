@@ -16,7 +16,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft import SWINGING
-from loadflow.scene.shaft_place import move_together, seats_felt
+from loadflow.scene.shaft_place import any_moves_in_films, seats_felt
 from loadflow.shaft import Concept, CoupledBearing, coupled_loads, pitch_loads, yaw_loads
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.bores import ALIGNED, bores, turned_bores, with_bores
@@ -248,7 +248,7 @@ def shaft_key(scene: Scene) -> str:
     """Name of the shaft in the ladder: its suspensions, or the bearings it is iterated with."""
     if not scene.shaft.coupled:
         return _described(scene)
-    if any(move_together(scene.shaft, scene.journal, concept) for concept in scene.shaft.concepts):
+    if any_moves_in_films(scene.shaft, scene.journal):
         return "on journal, in motion"
     kinds = {
         f"{support.stiffness}, tilting"

@@ -84,7 +84,7 @@ def friction_pair(name: str) -> FrictionPair:
     Returns
     -------
     FrictionPair
-        The pair.
+        Its coefficients, those that its source gives; the others are None.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def friction_pair_names() -> list[str]:
     Returns
     -------
     list of str
-        The names.
+        In the order of the alphabet, for `friction_pair`.
 
     Examples
     --------

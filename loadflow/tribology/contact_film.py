@@ -234,10 +234,8 @@ def hamrock_dowson_minimum(material: Value, speed: Value, load: Value, elliptici
 
     Parameters
     ----------
-    material, speed, load : float or ndarray
-        G, U, W of points, with R = R_x along the rolling direction.
-    ellipticity : float or ndarray
-        k = a/b, of the semi-axes across and along rolling.
+    material, speed, load, ellipticity : float or ndarray
+        As `hamrock_dowson_central`.
 
     Returns
     -------

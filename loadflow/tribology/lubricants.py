@@ -309,7 +309,7 @@ def lubricant_names() -> list[str]:
     Returns
     -------
     list of str
-        The names.
+        In the order of the alphabet, for `lubricant`.
 
     Examples
     --------

@@ -26,11 +26,11 @@ def write_bts(path: str | Path, box: Box, description: str = "loadflow") -> None
     Parameters
     ----------
     path : path-like
-        File to write.
+        File to write; one that is there is overwritten.
     box : Box
-        The wind.
+        Fluctuation and mean profile; y symmetric to 0, m.
     description : str
-        Stands in the file.
+        Text in the head of the file, of which 200 ASCII characters are kept.
 
     Raises
     ------
@@ -87,7 +87,7 @@ def read_bts(path: str | Path) -> Box:
     Parameters
     ----------
     path : path-like
-        The file.
+        A file of TurbSim's full-field format (``.bts``).
 
     Returns
     -------

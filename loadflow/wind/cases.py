@@ -23,7 +23,9 @@ Event = Literal[
     "none", "blade stuck", "pitch runaway", "grid loss", "start", "stop", "emergency stop",
     "parked", "parked, blade stuck", "idling",
 ]  # fmt: skip
-STANDING = ("parked", "parked, blade stuck", "idling")
+BRAKED = ("parked", "parked, blade stuck")
+"""Events in which a brake holds the shaft."""
+STANDING = (*BRAKED, "idling")
 """Events that are a state: the turbine is in it from the beginning to the end."""
 _CALM, _FASTEST = 0.1, 100.0  # m/s, of the wind on a turbine that stands
 TURBULENT = ("NTM", "ETM", "EWM50", "EWM1")
@@ -104,7 +106,7 @@ class LoadCase:
     @property
     def parked(self) -> bool:
         """Whether a brake holds the shaft throughout; in a storm it may slip."""
-        return self.events[0] in ("parked", "parked, blade stuck")
+        return self.events[0] in BRAKED
 
     @property
     def stands_or_starts(self) -> bool:
@@ -169,11 +171,13 @@ LOAD_CASES = {
 }  # fmt: skip
 
 
-STARTS_IN_WORDS = frozenset((
-    "startup", "start", "shutdown", "stop", "emergency", "gridloss", "fault",
-    "idling", "idle", "parked",
-))  # fmt: skip
-"""Load cases without a number, as names of files say them, in which the shaft stands or starts."""
+EVENTS_IN_WORDS: dict[str, Event] = {
+    "startup": "start", "start": "start", "shutdown": "stop", "stop": "stop",
+    "emergency": "emergency stop", "gridloss": "grid loss",
+    "fault": "emergency stop",  # in which every fault ends
+    "idling": "idling", "idle": "idling", "parked": "parked",
+}  # fmt: skip
+"""What the turbine does in load cases without a number, as names of files say them."""
 
 
 def row_of(dlc: str) -> LoadCase | None:
@@ -185,6 +189,20 @@ def row_of(dlc: str) -> LoadCase | None:
     ('6.2', None, None)
     """
     return LOAD_CASES.get(dlc.rstrip(ascii_lowercase))
+
+
+def event_of(dlc: str) -> Event:
+    """What the control does or suffers in a load case of the table, of several events the first.
+
+    Of one that the table lacks, what its word says.
+
+    Examples
+    --------
+    >>> event_of("4.2"), event_of("6.2a"), event_of("idle"), event_of("steady")
+    ('stop', 'parked', 'idling', 'none')
+    """
+    row = row_of(dlc)
+    return EVENTS_IN_WORDS.get(dlc, "none") if row is None else row.events[0]
 
 
 def factor_of_maximum(dlc: str) -> float:
@@ -201,8 +219,7 @@ def stands_or_starts(dlc: str) -> bool:
     >>> stands_or_starts("3.1"), stands_or_starts("startup"), stands_or_starts("steady")
     (True, True, False)
     """
-    row = row_of(dlc)
-    return dlc in STARTS_IN_WORDS if row is None else row.stands_or_starts
+    return event_of(dlc) != "none"
 
 
 def starts_or_stops(dlc: str) -> bool:
@@ -213,10 +230,7 @@ def starts_or_stops(dlc: str) -> bool:
     >>> starts_or_stops("3.1"), starts_or_stops("shutdown"), starts_or_stops("idle")
     (True, True, False)
     """
-    row = row_of(dlc)
-    if row is not None:
-        return row.stands_or_starts and row.operating
-    return dlc in STARTS_IN_WORDS - {*STANDING, "idle"}
+    return event_of(dlc) not in ("none", *STANDING)
 
 
 def parked(dlc: str) -> bool:
@@ -227,8 +241,7 @@ def parked(dlc: str) -> bool:
     >>> parked("6.1"), parked("6.2a"), parked("parked"), parked("idling")
     (True, True, True, False)
     """
-    row = row_of(dlc)
-    return dlc == "parked" if row is None else row.parked
+    return event_of(dlc) in BRAKED
 
 
 def load_case(dlc: str) -> LoadCase:
@@ -242,7 +255,7 @@ def load_case(dlc: str) -> LoadCase:
     Returns
     -------
     LoadCase
-        The row.
+        Its wind, speeds, events, safety and length.
 
     Raises
     ------

@@ -210,7 +210,7 @@ def condition(
     Returns
     -------
     Condition
-        The wind.
+        Its turbulence or gust, the event and its time, and the length of the series.
 
     Raises
     ------

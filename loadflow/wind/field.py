@@ -87,7 +87,7 @@ def polar_angles(count: int) -> NDArray[np.float64]:
     Returns
     -------
     ndarray (count,)
-        rad.
+        0, 2π/count, 4π/count, …, rad.
 
     Raises
     ------

@@ -36,7 +36,7 @@ def rotor_grid(machine: Machine, options: WindOptions) -> PolarGrid:
     Returns
     -------
     PolarGrid
-        The grid.
+        Radii from 0 to half the diameter of the rotor, m, and angles, rad.
 
     Examples
     --------
@@ -60,12 +60,12 @@ def coherence_factors(machine: Machine, options: WindOptions) -> CoherenceFactor
     machine : Machine
         The turbine.
     options : WindOptions
-        Class, spectrum and grid.
+        Number of radii and angles; nothing else of them counts.
 
     Returns
     -------
     CoherenceFactors
-        To be handed to `inflow`.
+        Cholesky factors of the coherence between the points of the grid, to be handed to `inflow`.
 
     Examples
     --------
@@ -188,11 +188,11 @@ def transient(
     Parameters
     ----------
     condition : Condition
-        With the gust.
+        With the gust: its kind, size and start.
     machine : Machine
-        The turbine.
+        Whose rotor diameter a change of shear is spread over.
     time : ndarray (n,)
-        s.
+        From the start of the series, s.
 
     Returns
     -------

@@ -72,7 +72,7 @@ def mann_box(
     Returns
     -------
     Box
-        The fluctuation.
+        Fluctuation u, v, w over time and grid, m/s, without the mean.
 
     Raises
     ------

@@ -33,7 +33,8 @@ def case_seed(dlc: str, wind_speed: float, index: int, base: int = 0) -> np.rand
     Returns
     -------
     numpy.random.SeedSequence
-        The seed.
+        Independent of those of all other load cases, speeds, indices and bases, and the same on
+        every machine.
 
     Raises
     ------

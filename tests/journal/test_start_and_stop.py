@@ -17,7 +17,7 @@ from loadflow.stages.film_summary import extremes, mixed_friction
 from loadflow.stages.turning import runs_throughout
 from loadflow.studies.verdicts import verdicts
 from loadflow.wind import LOAD_CASES
-from loadflow.wind.cases import STARTS_IN_WORDS, stands_or_starts
+from loadflow.wind.cases import EVENTS_IN_WORDS, stands_or_starts
 
 LOAD = 1e6
 FILM = {"grid": [24, 8], "bearings": ["N"]}
@@ -229,7 +229,7 @@ def test_faults_end_in_a_stop_and_are_no_power_production_to_the_limits_of_a_fil
 def test_a_start_that_the_name_of_a_file_says_in_a_word_is_no_power_production():
     words = [label_from_name(Path(f"own_{word}_v12.outb")).dlc for word in SITUATIONS]
     assert words == [*SITUATIONS]
-    assert {word for word in words if stands_or_starts(word)} == STARTS_IN_WORDS
+    assert {word for word in words if stands_or_starts(word)} == {*EVENTS_IN_WORDS}
     table = xr.Dataset(coords={"dlc": ("case", ["1.1", "startup", "steady", "own"])})
     assert runs_throughout(table).tolist() == [True, False, True, True]
 

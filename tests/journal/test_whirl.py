@@ -1,5 +1,7 @@
 """Half-speed whirl of a shaft is known where a film does not rupture, and told."""
 
+from itertools import cycle
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -7,8 +9,9 @@ import xarray as xr
 from loadflow.journal import JournalBearing, Lubricant
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
+from loadflow.stages import paths_again
 from loadflow.stages.comparisons import compare
-from loadflow.stages.film_summary import warnings
+from loadflow.stages.film_summary import extremes, warnings
 from loadflow.stages.journal import orbit
 from loadflow.stages.whirl import whirling
 
@@ -50,32 +53,99 @@ def test_whirl_is_that_of_half_the_speed(turns, found):
     assert not whirling(samples.isel(sample=slice(500))).any()  # for less than six turns
 
 
-def test_cells_are_not_asked_about_a_shaft_that_whirls_throughout():
-    """Nothing but they damp it; the film is told as one that is not checked."""
-    case = Case("1.1", 12.0, 1)
-    time = STEP * np.arange(800)
+CASE = Case("1.1", 12.0, 1)
+COUNT = 1000
+SMALL = {
+    "accuracy": "given",
+    "journal": {"bearings": ["N"], "rung": "reduced", "motion": "transient"},
+    "shaft": {"two_point": {}},
+}
+
+
+@pytest.fixture(scope="module")
+def solved():
+    """Loads, shaft and film of a bearing over 9.5 turns of its shaft."""
+    time = STEP * np.arange(COUNT)
     loads = xr.Dataset({"time": time, "speed": ("time", np.full(time.size, SPEED))})
     force = np.tile([0.0, 0.0, -2e5], (time.size, 1))[None]
     rows = {name: (("bearing", "time", "axis"), row) for name, row in
             {"force": force, "moment": 0.0 * force}.items()}  # fmt: skip
     shaft = xr.Dataset(rows).assign_coords(bearing=["N"], time=time)
-    angle = 0.5 * SPEED * time
-    place = 0.97 * WIDE.clearance * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-    scene = make_scene(
-        {
-            "accuracy": "given",
-            "journal": {"bearings": ["N"], "rung": "reduced", "motion": "transient"},
-            "shaft": {"two_point": {}},
-        }
-    )
     parts = {"loads": loads, "shaft": shaft}
-    film = orbit(scene, case, parts)["N"].to_dataset()
+    return parts | {"journal": orbit(make_scene(SMALL), CASE, parts)}
+
+
+def parts_with(solved, turns, **columns):
+    """The same with a shaft that goes round by `turns` of its own, and with other columns."""
+    film = solved["journal"]["N"].to_dataset().copy(deep=True)
+    angle = np.cumsum(turns * np.ones(film.sizes["sample"])) * SPEED * STEP
+    place = 0.97 * WIDE.clearance * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     film["eccentricity"].values[:] = place
-    parts["journal"] = xr.DataTree.from_dict({"N": film})
-    rows = [row for row in compare(scene, case, parts) if row.stage == "journal"]
-    assert [row.quantity for row in rows] == ["minimum film"]
-    assert np.isnan(rows[0].value)
-    assert "whirls at half its speed" in rows[0].against
+    film = film.assign({name: ("sample", values) for name, values in columns.items()})
+    return solved | {"journal": xr.DataTree.from_dict({"N": film})}
+
+
+def compared(parts):
+    found = compare(make_scene(SMALL), CASE, parts)
+    return {row.quantity: row for row in found if row.stage == "journal"}
+
+
+def test_cells_are_not_asked_about_a_shaft_that_whirls_throughout(solved):
+    """Nothing but they damp it; the film is told as one that is not checked."""
+    rows = compared(parts_with(solved, 0.5))
+    assert [*rows] == ["minimum film"]
+    assert np.isnan(rows["minimum film"].value)
+    assert "whirls at half its speed" in rows["minimum film"].against
+
+
+def stretches(monkeypatch, *answers):
+    """Where stretches are asked for, which find one of the answers after another, ours and theirs.
+
+    As often as models are compared: warmer oil and other cells.
+    """
+    asked, turn = [], cycle(answers)
+
+    def stretch(scene, other, bearing, parts, runs, around):
+        asked.append((np.isfinite(runs), int(around)))
+        found = [dict.fromkeys(paths_again.FILM, answer) for answer in next(turn)]
+        return slice(int(around), int(around) + 1), *found
+
+    monkeypatch.setattr(paths_again, "_stretch", stretch)
+    return asked
+
+
+def test_cells_are_asked_about_the_part_of_a_path_that_does_not_whirl(solved, monkeypatch):
+    sample = np.arange(COUNT)
+    # nearest to the shell while it whirls
+    ratio = np.where(sample < 700, 0.97, 0.9) + 1e-6 * sample
+    parts = parts_with(solved, np.where(sample < 850, 0.5, 0.0), eccentricity_ratio=ratio)
+    asked = stretches(monkeypatch, (1.0, 1.0))
+    compared(parts)
+    counts, around = asked[-1]
+    assert not counts[:700].any()
+    assert counts[900:].all()
+    assert around == COUNT - 1
+
+
+def test_where_surfaces_rub_the_pressure_is_that_of_films_that_carry_alone(solved, monkeypatch):
+    rubs = np.arange(COUNT) < 50
+    columns = {
+        "in_contact": rubs.astype(int),
+        "eccentricity_ratio": np.where(rubs, 0.99, 0.8),
+        "maximum_pressure": np.where(np.arange(COUNT) == 400, 8e6, 1e6),
+    }
+    asked = stretches(monkeypatch, (1e6, 1e6), (8e6, 1e7))
+    found = compared(parts_with(solved, 0.0, **columns))
+    assert [around for _, around in asked[-2:]] == [0, 400]
+    assert not asked[-1][0][rubs].any()
+    assert found["maximum pressure"].value == pytest.approx(0.2)
+    assert found["minimum film"].value == 0.0
+
+
+@pytest.mark.parametrize(("turns", "share"), [(0.5, 1.0), (0.0, 0.0)])
+def test_a_film_has_the_share_of_the_time_that_it_whirls(solved, turns, share):
+    film = parts_with(solved, turns)["journal"]["N"].to_dataset()
+    assert float(extremes(film)["whirl_share"]) == pytest.approx(share)
 
 
 def test_a_whirl_is_told_with_its_share_of_the_time():

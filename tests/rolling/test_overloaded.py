@@ -7,6 +7,8 @@ import pytest
 from synthetic import cube_file
 
 from loadflow.errors import SolverError
+from loadflow.planning.accuracy import errors_beside, expected_errors
+from loadflow.planning.effects import Estimates
 from loadflow.planning.plan import make_plan
 from loadflow.rolling import (
     BallBearing,
@@ -21,6 +23,7 @@ from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.rolling_at_work import rest
 
@@ -64,6 +67,19 @@ def test_a_plan_names_overloaded_bearings_and_the_factor(tmp_path):
     ]  # fmt: skip
     assert "times its static capacity" in small.overloaded[0]
     json.dumps([dict(effect.indicator) for effect in small.effects], allow_nan=False)
+
+
+@pytest.mark.parametrize(("size", "is_known"), [(0.1, True), (0.01, False)])
+def test_what_is_not_known_of_an_effect_makes_the_errors_of_its_answers_unknown(
+    tmp_path, size, is_known
+):
+    scene = scene_of(tmp_path, size)
+    heat = ROLLING_HEAT.indicator(situation(scene, list_cases(scene)))
+    # heat moves the modified life; were it to move the life, that would be as well known
+    known = Estimates({ROLLING_HEAT.name: {**heat, "life": heat["modified life"]}})
+    life = expected_errors(scene, known)["rolling.life"]["life"]
+    modified = errors_beside(scene, known)["rolling.life"]["modified life"]
+    assert (life is not None, modified is not None) == (is_known, is_known)
 
 
 def test_a_bearing_without_equilibrium_is_said_to_be_overloaded(tmp_path):

@@ -69,7 +69,7 @@ def fit_churning(
     Returns
     -------
     Churning
-        The constants.
+        a and b of least squares, m³ and m⁵, none below 0.
 
     Raises
     ------

@@ -152,7 +152,7 @@ def skf_series(kind: CatalogueKind) -> list[str]:
     Returns
     -------
     list of str
-        The names.
+        In the order of the table, for `skf_constants`.
 
     Examples
     --------

@@ -57,7 +57,7 @@ def patch_points(
     Returns
     -------
     PatchPoints
-        Places and directions.
+        Radius and height of each kind of contact, m, and azimuth of each ball, rad.
 
     Examples
     --------

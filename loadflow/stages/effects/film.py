@@ -10,7 +10,7 @@ import numpy as np
 from loadflow.data import gains
 from loadflow.journal import Turbulence
 from loadflow.scene.scene import Scene
-from loadflow.scene.shaft_place import move_together
+from loadflow.scene.shaft_place import any_moves_in_films
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_costs import cost_of, cost_of_shell
 from loadflow.stages.effects.film_sizes import (
@@ -179,8 +179,7 @@ def _contact(at: Situation) -> Sizes:
 
 def _holds_the_shaft(scene: Scene) -> bool:
     """Whether a shaft that stands at times floats in its films: no smooth one carries it then."""
-    floats = (move_together(scene.shaft, scene.journal, one) for one in scene.shaft.concepts)
-    return any(floats) and not always_turns(scene)
+    return any_moves_in_films(scene.shaft, scene.journal) and not always_turns(scene)
 
 
 CONTACT = Effect(

@@ -30,7 +30,7 @@ from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
 from loadflow.stages.turning import SLOWEST, is_parked
 from loadflow.turbines import Turbine, load_turbine
-from loadflow.wind.cases import STANDING, row_of
+from loadflow.wind.cases import STANDING, event_of
 
 Floats = np.ndarray
 
@@ -247,8 +247,7 @@ def points(cases: Iterable[Case]) -> list[Case]:
 
 def _state(case: Case) -> str:
     """What the rotor does throughout: it is parked, has a blade stuck besides, idles; or none."""
-    row = row_of(case.dlc)
-    event = {"idle": "idling"}.get(case.dlc, case.dlc) if row is None else row.events[0]
+    event = event_of(case.dlc)
     return event if event in STANDING else ""
 
 
