@@ -109,14 +109,6 @@ class LoadCase:
         return self.events[0] in BRAKED
 
     @property
-    def stands_or_starts(self) -> bool:
-        """Whether the shaft stands, starts or stops, so that its speed goes through zero.
-
-        Every fault ends in a stop.
-        """
-        return self.events[0] != "none"
-
-    @property
     def safety_factor(self) -> float:
         """Partial safety factor for loads γ_f; that of 1.1 is for extrapolated loads."""
         return SAFETY[self.safety]
@@ -213,6 +205,8 @@ def factor_of_maximum(dlc: str) -> float:
 
 def stands_or_starts(dlc: str) -> bool:
     """Whether the shaft stands, starts or stops in a load case, one of the table or a word.
+
+    Every fault ends in a stop.
 
     Examples
     --------
