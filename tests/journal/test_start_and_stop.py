@@ -222,7 +222,7 @@ def test_a_smooth_film_that_starts_has_the_pressure_of_what_floats_and_one_with_
 
 
 def test_faults_end_in_a_stop_and_are_no_power_production_to_the_limits_of_a_film():
-    produce = [dlc for dlc, row in LOAD_CASES.items() if not row.stands_or_starts]
+    produce = [dlc for dlc in LOAD_CASES if not stands_or_starts(dlc)]
     assert produce == ["1.1", "1.2", "1.3", "1.4", "1.5"]
 
 
