@@ -22,6 +22,7 @@ CHECKED = (
     "film_pressure",
     "eccentricity_ratio",
     "tilt",
+    "whirl",
     "oil_flow",
     "static_safety",
     "contact_pressure",

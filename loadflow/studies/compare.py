@@ -18,6 +18,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
+from loadflow.stages.film_summary import WHIRLS
 from loadflow.stages.turning import runs_throughout
 from loadflow.storage import plain
 from loadflow.studies.compare_factor import Margin
@@ -207,6 +208,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     power, note = supply_power(table)
     pump = lifetime_mean(run, power / 1e3, share, groups, "kW", _together(note, collar))
     yield "pump", replace(pump, error=error)
+    yield "whirl", whirl(run, table, groups)
     yield "mixed_time", mixed_time(run, table, share, groups)
     bores = _bores(run)
     worn = with_production(run, table, bores, wear(run.scene, bores, table, groups))
@@ -251,6 +253,26 @@ def _film(run: Finished, table: xr.Dataset, groups: Groups) -> Number:
     """Smallest film while the shaft runs, µm."""
     name, model = "smallest_film", "minimum film"
     return extreme(run, table, groups, name, "least", 1e6, "µm", model, running=True)
+
+
+def whirl(run: Finished, table: xr.Dataset, groups: Groups) -> Number:
+    """Longest half-speed whirl of a load case, % of its time, held against what a run warns of.
+
+    Parameters
+    ----------
+    run : Finished
+        The candidate.
+    table : xarray.Dataset
+        Films of the run over ``case`` and ``bearing``.
+    groups : Groups
+        Cases that differ by their seed alone.
+    """
+    if "whirl_share" not in table:
+        return Number(math.nan, "%", note="n/a: films at rest, which do not whirl")
+    longest = extreme(run, table, groups, "whirl_share", "most", 100.0, "%", "half-speed whirl")
+    if math.isnan(longest.value):
+        return longest
+    return replace(longest, limit=100 * WHIRLS, holds=longest.value < 100 * WHIRLS)
 
 
 def _over_roughness(film: Number, at: Callable[[str], Journal | AnyAxial]) -> Number:

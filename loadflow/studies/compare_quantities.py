@@ -92,6 +92,12 @@ QUANTITIES: dict[str, Compared] = {
         no_band="loads decide it, no tolerance does",
     ),
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
+    "whirl": Compared(
+        "longest half-speed whirl of a load case, share of its time", "%", _BEFORE, "journal",
+        at_most=True, top=100.0, rule=True,
+        no_error="only the cells damp a whirl, and the ladder has not measured what they do to it",
+        no_band="not followed again with other tolerances",
+    ),
     "mixed_time": Compared(
         "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR,
         no_error="not counted again: of films of pads, or of such as may be off by 100 %",

@@ -1,6 +1,7 @@
 """Half-speed whirl of a shaft is known where a film does not rupture, and told."""
 
 from itertools import cycle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,6 +15,10 @@ from loadflow.stages.comparisons import compare
 from loadflow.stages.film_summary import extremes, warnings
 from loadflow.stages.journal import orbit
 from loadflow.stages.whirl import whirling
+from loadflow.studies.compare import whirl
+from loadflow.studies.compare_numbers import Finished
+from loadflow.studies.compare_quantities import QUANTITIES
+from loadflow.studies.seed_intervals import Groups
 
 SPEED, STEP = 1.2, 0.05
 WIDE = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -156,3 +161,25 @@ def test_a_whirl_is_told_with_its_share_of_the_time():
     (said,) = warnings(xr.DataTree.from_dict({"journal": table}))
     assert "bearing N2" in said
     assert "2 of 2 load cases, start for 96 %" in said
+
+
+def whirl_row(shares):
+    """The row of a comparison of films that whirl for a share of each load case; None at rest."""
+    count = len(shares)
+    cases = [f"c{k}" for k in range(count)]
+    table = xr.Dataset(coords={
+        "case": cases, "bearing": ["N"], "wind_speed": ("case", np.full(count, 8.0)),
+        "dlc": ("case", ["1.1"] * count), "seed": ("case", np.arange(count)),
+    })  # fmt: skip
+    if None not in shares:
+        table = table.assign(whirl_share=(("case", "bearing"), np.reshape(shares, (count, 1))))
+    one = Finished("a", "", "", make_scene(SMALL), {"journal": table}, {}, Path())
+    return whirl(one, table, Groups.of(table))
+
+
+def test_a_comparison_tells_the_load_case_that_whirls_longest():
+    row = whirl_row([0.0, 0.3, 0.1])
+    assert (row.value, row.case, row.place, row.holds) == (pytest.approx(30.0), "c1", "N", False)
+    assert whirl_row([0.0, 0.04]).holds
+    assert QUANTITIES["whirl"].rule  # so that it is a reservation, and no limit
+    assert whirl_row([None]).note.startswith("n/a: films at rest")
