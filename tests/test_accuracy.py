@@ -15,6 +15,7 @@ from loadflow.planning.choice import choose
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import expected_seconds, gains, ladder, measured
 from loadflow.planning.plan import make_plan
+from loadflow.quantities import percent
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
 from loadflow.stages.registry import STAGES, giving, models
@@ -238,10 +239,35 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     film = check["difference"].values[check["stage"].values == "journal"]
     assert np.all((film > 0) & (film < 0.2))
     assert "solved again by better models" in run.report.read_text(encoding="utf-8")
-    assert any(warning.startswith("journal: ") for warning in run.warnings)
+    said = run.shortfalls[0]  # before what was expected
+    assert said.startswith("journal.film: the check found it off in")
+    worst = check["difference"].values[check["result"].values == "journal.film"].max()
+    assert percent(worst) in said
+    assert "asked for 0.01 %" in said
+    assert "what would help: a table journal.heat" in said  # of friction the most
+    assert 'journal.motion = "transient"' in said
+    assert not any("is off by" in warning for warning in run.warnings)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["accurate"] is False
     assert manifest["expected_errors"]["journal.film"]["minimum film"] == "not measured"
+
+
+def test_what_the_check_of_a_run_found_too_far_off_is_told_first_by_run_plan_and_report(
+    cube, tmp_path, capsys
+):
+    text = '[journal]\ngrid = [24, 8]\nmotion = "quasi-static"\nbearings = ["N2"]\n'
+    scene = file_of(cube, tmp_path, text)
+    scene.write_text(scene.read_text().replace("accuracy = 0.2", "accuracy = 1e-4"))
+    runs = str(tmp_path / "runs")
+    for words in (("run", str(scene), "--workers", "1"), ("plan", str(scene))):
+        with pytest.raises(SystemExit) as ended:
+            main([*words, "--out", runs])
+        assert ended.value.code == 0
+        first = capsys.readouterr().out.splitlines()[0]
+        assert first.startswith("not accurate enough: journal.film: the check found it off in")
+        assert "what would help: " in first
+    page = (tmp_path / "runs" / "given" / "report.html").read_text(encoding="utf-8")
+    assert "Not accurate enough: journal.film: the check found it off in" in page
 
 
 def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
