@@ -9,7 +9,7 @@ from synthetic import cube_file
 import loadflow as lf
 from loadflow.cli import main
 from loadflow.errors import InputError
-from loadflow.planning import choice
+from loadflow.planning import choice, verification
 from loadflow.planning.accuracy import error_by_change, expected_errors, rungs_up
 from loadflow.planning.choice import choose
 from loadflow.planning.effects import Estimates
@@ -18,6 +18,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.quantities import percent
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
+from loadflow.stages.differences import Difference
 from loadflow.stages.registry import STAGES, giving, models
 
 
@@ -311,6 +312,28 @@ def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
     assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
     assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
     assert error_by_change(scene, "journal", "not measured", 0.03) == 0.03
+
+
+def test_the_check_counts_what_cells_of_collars_are_off_not_only_what_the_next_ones_move(
+    monkeypatch,
+):
+    """On 20 × 10 cells p_max of the ladder's collar is off by 2.1 times what 40 × 20 move it."""
+    collar = {"kind": "thrust", "play": 6e-4}
+    pads = {"pads": 18, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5}
+    places = {"N": {"kind": "journal"}, "N2": [{"kind": "journal"}, collar | {"geometry": pads}]}
+    keys = {"results": ["thrust.film"], "shaft": {"two_point": {}}}
+    scene = make_scene({"name": "x", "bearings": places} | keys)
+    known = ladder()["thrust"]
+    coarse, fine = (
+        known[f"grid, {cells}"]["errors"]["maximum pressure"]["max"] for cells in ("20x10", "40x20")
+    )
+    moved = coarse - fine
+    row = Difference("thrust", "thrust.film", "maximum pressure", "x, N2", "finer", moved)
+    monkeypatch.setattr(verification, "compare", lambda *about: [row])
+    [case] = list_cases(scene)[:1]
+    found = verification.differences(scene, [case], {case.name: {}})
+    assert found["difference"].item() == pytest.approx(coarse)
+    assert coarse > 2.0 * moved
 
 
 def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):
