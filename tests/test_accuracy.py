@@ -9,14 +9,16 @@ from synthetic import cube_file
 import loadflow as lf
 from loadflow.cli import main
 from loadflow.errors import InputError
-from loadflow.planning import choice
+from loadflow.planning import choice, verification
 from loadflow.planning.accuracy import error_by_change, expected_errors, rungs_up
 from loadflow.planning.choice import choose
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import expected_seconds, gains, ladder, measured
 from loadflow.planning.plan import make_plan
+from loadflow.quantities import percent
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
+from loadflow.stages.differences import Difference
 from loadflow.stages.registry import STAGES, giving, models
 
 
@@ -238,10 +240,35 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     film = check["difference"].values[check["stage"].values == "journal"]
     assert np.all((film > 0) & (film < 0.2))
     assert "solved again by better models" in run.report.read_text(encoding="utf-8")
-    assert any(warning.startswith("journal: ") for warning in run.warnings)
+    said = run.shortfalls[0]  # before what was expected
+    assert said.startswith("journal.film: the check found it off in")
+    worst = check["difference"].values[check["result"].values == "journal.film"].max()
+    assert percent(worst) in said
+    assert "asked for 0.01 %" in said
+    assert "what would help: a table journal.heat" in said  # of friction the most
+    assert 'journal.motion = "transient"' in said
+    assert not any("is off by" in warning for warning in run.warnings)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["accurate"] is False
     assert manifest["expected_errors"]["journal.film"]["minimum film"] == "not measured"
+
+
+def test_what_the_check_of_a_run_found_too_far_off_is_told_first_by_run_plan_and_report(
+    cube, tmp_path, capsys
+):
+    text = '[journal]\ngrid = [24, 8]\nmotion = "quasi-static"\nbearings = ["N2"]\n'
+    scene = file_of(cube, tmp_path, text)
+    scene.write_text(scene.read_text().replace("accuracy = 0.2", "accuracy = 1e-4"))
+    runs = str(tmp_path / "runs")
+    for words in (("run", str(scene), "--workers", "1"), ("plan", str(scene))):
+        with pytest.raises(SystemExit) as ended:
+            main([*words, "--out", runs])
+        assert ended.value.code == 0
+        first = capsys.readouterr().out.splitlines()[0]
+        assert first.startswith("not accurate enough: journal.film: the check found it off in")
+        assert "what would help: " in first
+    page = (tmp_path / "runs" / "given" / "report.html").read_text(encoding="utf-8")
+    assert "Not accurate enough: journal.film: the check found it off in" in page
 
 
 def test_a_run_climbs_where_its_own_cases_need_it_and_gives_the_same_when_taken_up(cube, tmp_path):
@@ -285,6 +312,28 @@ def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():
     assert rungs_up(scene, "journal", "not measured", own, 1e-9) == 1
     assert rungs_up(scene, "journal", "minimum film", float("inf"), 0.05) == 1
     assert error_by_change(scene, "journal", "not measured", 0.03) == 0.03
+
+
+def test_the_check_counts_what_cells_of_collars_are_off_not_only_what_the_next_ones_move(
+    monkeypatch,
+):
+    """On 20 × 10 cells p_max of the ladder's collar is off by 2.1 times what 40 × 20 move it."""
+    collar = {"kind": "thrust", "play": 6e-4}
+    pads = {"pads": 18, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5}
+    places = {"N": {"kind": "journal"}, "N2": [{"kind": "journal"}, collar | {"geometry": pads}]}
+    keys = {"results": ["thrust.film"], "shaft": {"two_point": {}}}
+    scene = make_scene({"name": "x", "bearings": places} | keys)
+    known = ladder()["thrust"]
+    coarse, fine = (
+        known[f"grid, {cells}"]["errors"]["maximum pressure"]["max"] for cells in ("20x10", "40x20")
+    )
+    moved = coarse - fine
+    row = Difference("thrust", "thrust.film", "maximum pressure", "x, N2", "finer", moved)
+    monkeypatch.setattr(verification, "compare", lambda *about: [row])
+    [case] = list_cases(scene)[:1]
+    found = verification.differences(scene, [case], {case.name: {}})
+    assert found["difference"].item() == pytest.approx(coarse)
+    assert coarse > 2.0 * moved
 
 
 def test_plan_prints_choice_error_and_what_is_on_disk(cube, tmp_path, capsys):

@@ -8,7 +8,7 @@ import pytest
 
 from benchmarks.ladder.physics import ten_scenes
 from loadflow.planning.accuracy import surely_small
-from loadflow.planning.effects import estimates
+from loadflow.planning.effects import EffectVerdict, estimates
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import make_plan, needed_stages
 from loadflow.planning.verification import differences
@@ -96,8 +96,20 @@ def test_the_check_leaves_what_is_sure_as_it_is(plan, monkeypatch):
     assert found["stage"].values.tolist() == [RINGS.name]
 
 
+def test_an_effect_without_a_bound_is_kept_until_somebody_measures_it():
+    """By its indicator heat is small enough for this stop, which no pilot asks."""
+    stop = ten_scenes()["stop, 5 MW"].model_copy(update={"accuracy": 0.15})
+    kept = make_plan(stop)
+    told = next(one for one in kept.effects if one.name == HEAT.name)
+    assert max(told.indicator.values()) < 0.05
+    assert told.kept
+    assert "no bound" in told.why
+    small = EffectVerdict({HEAT.name: dict.fromkeys(told.indicator, 0.05)})
+    assert not HEAT.is_on(make_plan(stop, verdict=small).scene)
+
+
 def test_a_floating_shaft_is_followed_through_a_start_before_the_run_of_many_alone():
-    """With heat and without took 7 s before a run of 3.4 s."""
+    """With heat and without took 2.0 s of a stop before a run of 2.6 s, 3.8 s of a start."""
     one = ten_scenes()["start, 5 MW"]
     loads = one.loads.model_copy(update={"wind_speeds": list(range(4, 25)), "seeds": 3})
     many = one.model_copy(update={"loads": loads})

@@ -148,6 +148,7 @@ def plan(
     from loadflow.planning.pilot import pilot
     from loadflow.planning.plan import make_plan
     from loadflow.planning.seeds_wanted import seeds_wanted, sentences
+    from loadflow.planning.shortfalls import found_shortfalls
     from loadflow.running.folder import finished_parts, known_verdict, refinements, results_of
     from loadflow.scene.unused import (
         asks_for_friction,
@@ -167,6 +168,8 @@ def plan(
     made = make_plan(wanted, refinements(folder, wanted), verdict)
     there = finished_parts(folder, made)
     tables = results_of(folder) if all(there[s.name] == s.runs for s in made.steps) else None
+    checked = (tables or {}).get("check")
+    short = [*([] if checked is None else found_shortfalls(wanted, checked)), *made.shortfalls]
     steps = [
         {
             "stage": step.name,
@@ -183,14 +186,14 @@ def plan(
         names = [case.name for case in made.cases]
         found = {"steps": steps, "cases": names, "left_out": made.left_out}
         found |= {"unused": unused_keys(wanted), "taken": wanted.taken}
-        told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": made.shortfalls}
+        told = {"errors": made.errors, "accurate": made.accurate, "shortfalls": short}
         told |= {
             "overloaded": made.overloaded,
             "seeds": [vars(one) for one in seeds_wanted(made, tables)],
         }
         print_json(found | told | {"effects": [vars(effect) for effect in made.effects]})
         return
-    for said in made.shortfalls:
+    for said in short:
         out.print(f"not accurate enough: {said}", soft_wrap=True)
     heads = ("stage", "model", "chosen", "runs", "on disk", "expected time, one core", "error")
     table = Table(*heads, box=None)

@@ -69,8 +69,8 @@ def choose(
     -------
     Choice
         Where an accuracy is out of reach, what is in reach is held: the rest of the error is kept
-        within it. Where some errors were not measured, as few of these as can be. `met` is False in
-        both.
+        within it. Where some errors were not measured, as few of these as can be; `met` is False in
+        both. So are effects left out that nobody measured and whose indicator is no bound.
 
     Raises
     ------
@@ -170,6 +170,14 @@ class _Choosing:
             self.times[place] = expected_seconds(scene, name, self.cases)
         return self.times[place]
 
+    def doubts(self, name: str, section: Any) -> int:
+        """How many effects a section leaves out whose size nobody knows."""
+        scene = self.with_sections({name: section})
+        return sum(
+            one.section == name and not one.is_on(scene) and self.known.is_doubtful(scene, one)
+            for one in concerned(self.scene, self.stages)
+        )
+
     def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
         """Alternatives of a section that no other one beats in time and in every error."""
         rated, seen = [], []
@@ -180,7 +188,7 @@ class _Choosing:
             errors = np.where(np.isnan(own), np.inf, own).tolist()
             if links not in seen:
                 seen.append(links)
-            rating = (*map(float, self.seconds(scene)), *errors)
+            rating = (self.doubts(name, section), *map(float, self.seconds(scene)), *errors)
             rated.append((section, seen.index(links), rating))
         return [
             one
@@ -201,7 +209,11 @@ class _Choosing:
         """
         picked, errors = self._candidates(alternatives)
         allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
+        doubts = {
+            id(one): self.doubts(name, one) for name in alternatives for one in alternatives[name]
+        }
         missing = np.isnan(errors).sum(axis=1)
+        missing += [sum(doubts[id(section)] for section in combined) for combined in picked]
         fewest = missing == missing.min()
         known = np.nan_to_num(errors)
         least = known[fewest].min(axis=0, initial=np.inf)
@@ -233,7 +245,7 @@ class _Choosing:
         if good[best]:
             beside = "beside what cannot be helped"
             why = f"cheapest {beside if beyond.any() else 'that is accurate enough'}"
-        if missing[best]:
+        if np.isnan(errors[best]).any():
             why += ", by the errors that are known"
         return scene_of(best), why
 

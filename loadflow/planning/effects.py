@@ -10,11 +10,14 @@ from pydantic import ValidationError
 
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.registry import effects_of
 from loadflow.stages.effects.rolling import overloaded
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.registry import STAGES
+
+WORTH = 0.1
+"""Share of the smallest error allowed, below which an indicator needs no measurement."""
 
 
 @dataclass(frozen=True)
@@ -86,6 +89,18 @@ class Estimates:
         """Sizes by quantity: measured, or by the indicator."""
         measured = self.verdict.sizes.get(effect.name) if self.verdict else None
         return self.indicators.get(effect.name, {}) if measured is None else measured
+
+    def is_little(self, scene: Scene, effect: Effect) -> bool:
+        """Whether an effect is far below all that a scene allows; False where it is not known."""
+        least = min(scene.allowed(result) for result in scene.results)
+        sizes = self.sizes(effect).values()
+        return bool(sizes) and all(size <= WORTH * least for size in sizes)  # NaN is not
+
+    def is_doubtful(self, scene: Scene, effect: Effect) -> bool:
+        """Whether nobody measured an effect whose indicator is no bound, and not `is_little`."""
+        measured = self.verdict is not None and effect.name in self.verdict.sizes
+        told = bool(self.indicators.get(effect.name)) and not self.is_little(scene, effect)
+        return told and not measured and effect.larger(scene) >= UNKNOWN
 
     def refused(self, effect: Effect) -> str:
         """Why an effect cannot be on, by the pilot; empty if nothing is known against it."""

@@ -40,9 +40,6 @@ one case is then within a tenth of the time of two processes."""
 SOLVED = 1.0
 """Processor time of the films and contacts of a case of a pilot, s; the main job's."""
 
-WORTH = 0.1
-"""Share of the smallest error allowed, below which an indicator needs no measurement."""
-
 
 @dataclass(frozen=True)
 class Effort:
@@ -237,8 +234,8 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
 def _takes_long(chosen: Scene, effort: Effort, cases: tuple[Case, ...]) -> bool:
     """Whether a shaft is to be followed in its films through too large a part of a run.
 
-    Of starts and stops alone: the heat balance of films on asperities takes most of the time of
-    such a case, so that a shorter one counts as a whole one.
+    Of starts and stops alone: a start is seen whole, and a stop of 60 s takes as long as a whole
+    run of one, as the stretch of each bearing is followed after a past of its own.
     """
     floats = any_moves_in_films(chosen.shaft, chosen.journal)
     if not floats or not comes_from_or_to_standstill(chosen):
@@ -265,11 +262,8 @@ def _stages(scene: Scene) -> list[str]:
 
 def _worth_measuring(scene: Scene, chosen: Scene, known: Estimates) -> Iterator[Effect]:
     """Effects that can be switched, and whose indicator is not far below what is allowed."""
-    least = min(scene.allowed(result) for result in scene.results)
     for effect in concerned(chosen, _stages(chosen)):
-        sizes = known.sizes(effect).values()
-        little = bool(sizes) and all(size <= WORTH * least for size in sizes)  # NaN is none
-        matters = not little or effect.is_on(scene)
+        matters = not known.is_little(scene, effect) or effect.is_on(scene)
         both = switched(chosen, effect, not effect.is_on(chosen)) is not None
         if matters and both and effect.probed in PROBES:
             yield effect

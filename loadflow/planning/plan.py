@@ -226,6 +226,8 @@ def _effects(wanted: Scene, choice: Choice, needed: set[str]) -> Iterator[Effect
             why = refused
         elif not kept and effect.switched(wanted, True) is None:
             why = f"it would need {effect.needs}"
+        elif kept and choice.estimates.is_doubtful(choice.scene, effect):
+            why = "its indicator is no bound, and no pilot measured it"
         else:
             little = f"it takes {percent(LITTLE)} of the time or less"
             why = f"the accuracy asks for it, or {little}" if kept else "small enough"

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import numpy as np
+import xarray as xr
+
 from loadflow.planning.accuracy import Part, contributions
 from loadflow.planning.choice import Choice
 from loadflow.planning.ladder import choices
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.registry import giving, models
+from loadflow.stages.stage import Rungs
 
 
 def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
@@ -54,6 +59,52 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
     return said
 
 
+def found_shortfalls(wanted: Scene, check: xr.Dataset) -> list[str]:
+    """Say of each result that a finished run found farther off than asked for how far, and why.
+
+    Parameters
+    ----------
+    wanted : Scene
+        As the user wrote it.
+    check : xarray.Dataset
+        What the check at the end of the run found, see `loadflow.planning.verification`.
+
+    Returns
+    -------
+    list of str
+        A sentence for each result: its quantities that are off, beside which better model and in
+        which load case the worst of them, what would help, that first which helps most. Empty where
+        no accuracy is asked for.
+    """
+    beyond = check.isel(check=(check["difference"] > check["allowed"]).values)
+    beyond = beyond.isel(check=np.argsort(-beyond["difference"].values, kind="stable"))
+    said = []
+    for result in dict.fromkeys(beyond["result"].values.tolist()):
+        rows = beyond.isel(check=(beyond["result"] == result).values)
+        worst = rows.isel(check=0)
+        sizes: dict[str, float] = {}
+        for quantity, error in zip(rows["quantity"].values.tolist(), rows["difference"].values):
+            sizes.setdefault(quantity, float(error))
+        off = ", ".join(f"{name} by {_size(error)}" for name, error in sizes.items())
+        helps = [_help(wanted, name) for name in rows["stage"].values.tolist()]
+        said.append(
+            f"{result}: the check found it off in {off}, {_asked(wanted, wanted.allowed(result))}; "
+            f"most beside {worst['against'].item()} ({worst['case'].item()}); "
+            f"what would help: {'; '.join(dict.fromkeys(helps))}"
+        )
+    return said
+
+
+def _size(error: float) -> str:
+    return percent(error) if np.isfinite(error) else "all of it, as one film alone was found"
+
+
+def _help(wanted: Scene, name: str) -> str:
+    """What would help against a model, or an effect left out, of that name."""
+    effect = next((one for one in EFFECTS if one.name == name), None)
+    return effect.needs if effect else _finer_in_words(wanted, models()[name])
+
+
 def _unknown_in_words(wanted: Scene, choice: Choice, part: Part) -> str:
     if part.effect is None:
         return f"{_rung_in_words(choice.scene, part.model)} was not measured"
@@ -68,13 +119,17 @@ def _asked(wanted: Scene, allowed: float) -> str:
 def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
     effect = part.effect
     if effect is None:
-        rungs = models()[part.model]
-        held = len(choices(wanted, rungs)) == 1
-        help_ = f"leave {rungs.section} to the plan" if held else "no finer one was measured"
+        help_ = _finer_in_words(wanted, models()[part.model])
         return f"{_rung_in_words(choice.scene, part.model)}; what would help: {help_}"
     if refused := choice.estimates.refused(effect):
         return f"{effect.name} left out, as it failed on cases of this scene: {refused}"
     return f"{effect.name} left out; what would help: {effect.needs}"
+
+
+def _finer_in_words(wanted: Scene, rungs: Rungs) -> str:
+    """What would help against the error of a rung."""
+    held = len(choices(wanted, rungs)) == 1
+    return f"leave {rungs.section} to the plan" if held else "no finer one was measured"
 
 
 def _rung_in_words(scene: Scene, model: str) -> str:

@@ -35,7 +35,8 @@ class Run:
     unused : dict
         Keys of the scene that are set but change nothing, and why.
     shortfalls : tuple of str
-        Results that are not expected to be as accurate as asked for: how far off, why, what helps.
+        Results that the check found, or that are expected, less accurate than asked for: how far
+        off, why, what helps.
     notes : tuple of str
         What is doubtful about the scene itself, such as a turbine that is scaled, or what neither
         scene nor turbine state, and what was taken instead.

@@ -24,6 +24,7 @@ from loadflow.planning.choice import Choice, can_refine, refine
 from loadflow.planning.effects import EffectVerdict, concerned
 from loadflow.planning.pilot import Questions, pilot
 from loadflow.planning.plan import Plan, make_plan, needed_stages, plan_of
+from loadflow.planning.shortfalls import found_shortfalls
 from loadflow.running.cases import (
     Outcome,
     do_case,
@@ -233,6 +234,9 @@ def _run(
         wall = time.perf_counter() - started
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
+        checked = tree.children.get(check.CHECK.name)
+        found = [] if checked is None else found_shortfalls(scene, checked.to_dataset())
+        manifest["shortfalls"] = short = (*found, *plan.shortfalls)
         record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
         can, rungs = partial(can_refine, scene, plan.scene), partial(rungs_up, plan.scene)
         higher = check.to_refine(tree, can, rungs)
@@ -259,7 +263,7 @@ def _run(
     log.info("finished, %d parts have no answer", len(failures))
     bores = told_bores(tree.children)
     notes = (*plan.overloaded, *scaling_note(scene), *friction_note(scene), *scene.taken, *bores)
-    return Run(folder, tree, failures, unused_keys(scene), plan.shortfalls, notes)
+    return Run(folder, tree, failures, unused_keys(scene), short, notes)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes

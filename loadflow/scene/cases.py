@@ -168,6 +168,26 @@ def wind_class(scene: Scene) -> iec.WindClass:
     return class_of(scene.loads.wind_options)
 
 
+def simulated_length(scene: Scene) -> float | None:
+    """Length of a simulated load case, s, the mean over the design load cases; None of given ones.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> from loadflow.scene.cases import simulated_length
+    >>> simulated_length(make_scene({"loads": {"dlc": ["1.1", "3.1"]}}))
+    450.0
+    """
+    from loadflow.wind.cases import load_case
+
+    loads = scene.loads
+    if loads.source != "simulate":
+        return None
+    if loads.duration:
+        return loads.duration
+    return sum(load_case(dlc).duration for dlc in loads.dlcs) / len(loads.dlcs)
+
+
 def simulated_case(scene: Scene, dlc: str, wind_speed: float, index: int) -> Case:
     """Return a case to simulate, with the length that the scene or the load case gives it."""
     wind = wind_of(scene, Case(dlc, wind_speed, index))

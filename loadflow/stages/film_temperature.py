@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.errors import SolverError
+from loadflow.errors import InputError
+from loadflow.journal.heat import Heat
+from loadflow.journal.line import Line
+from loadflow.journal.models.model import model_of
+from loadflow.journal.warm_orbit import series_temperature
 from loadflow.scene.journal import Journal
-
-TEMPERATURE_SAMPLES = 64
-"""Samples of a series whose mean friction and flow give the temperature of a film in motion."""
 
 
 def mean_temperature(
@@ -16,26 +17,23 @@ def mean_temperature(
 ) -> float | None:
     """Temperature (K) of a film in motion under `force` (n, 2) in its frame; None without heat.
 
-    `line` is how the shaft lies, each (n, 2), as for an equilibrium.
-
-    It is that of the mean friction and flow of `TEMPERATURE_SAMPLES` equilibria of the series.
+    That of a path of the film alone, see `series_temperature`. `line` is how the shaft lies, each
+    (n, 2), as for an equilibrium.
 
     Raises
     ------
+    loadflow.errors.InputError
+        Heat over the area of the film, which has no single temperature.
     loadflow.errors.SolverError
         No heat balance below the largest temperature.
     """
     if options.heat is None:
         return None
-    some = np.unique(np.linspace(0, speed.size - 1, TEMPERATURE_SAMPLES).round().astype(int))
-    warm = options.geometry.equilibrium(
-        force[some],
-        speed[some],
-        options.film_model,
-        weights=np.ones(some.size),
-        strict=False,
-        **{name: rows[some] for name, rows in line.items()},
-    )
-    if not np.any(warm.converged):
-        raise SolverError("orbit cannot start: no heat balance of its mean friction and flow")
-    return float(np.asarray(warm.temperature)[0])
+    if not isinstance(options.heat, Heat):
+        raise InputError(
+            "journal.heat over the area of the film has no single temperature; a table "
+            "journal.heat of one temperature has"
+        )
+    film, bearing, lies = options.film_model, options.geometry, Line.of(speed.shape, **line)
+    model = model_of("at_rest", film, bearing, lies)
+    return series_temperature(model, bearing, film, force, speed, lies)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from loadflow.scene.cases import simulated_length
 from loadflow.scene.scene import Scene
 from loadflow.stages.stage import STEPS_PER_CASE
 
@@ -68,7 +69,8 @@ in motion over one without, and what is solved before the first step, in steps w
 def cost_of_heat(scene: Scene) -> float:
     """Time of the films of a scene with heat over that without; other rungs as "reduced".
 
-    In motion the temperature of a series is found once, which counts the less the longer it is.
+    In motion the temperature of a series is found once, which counts the less the longer it is;
+    given series are taken to be as long as those of the ladder.
 
     Examples
     --------
@@ -80,6 +82,8 @@ def cost_of_heat(scene: Scene) -> float:
     >>> moving = {"journal": warm | {"motion": "transient"}}
     >>> [round(cost_of_heat(make_scene(moving | {"loads": {"duration": t}})), 2) for t in (60, 600)]
     [1.38, 1.04]
+    >>> round(cost_of_heat(make_scene(moving | {"loads": {"dlc": "3.1"}})), 3)  # of 300 s
+    1.075
     """
     journal = scene.journal
     heats = [heat for name in journal.bearings if (heat := journal.at(name).heat) is not None]
@@ -87,7 +91,7 @@ def cost_of_heat(scene: Scene) -> float:
     at_rest, step, before = HEAT_COSTS[kind].get(journal.rung, HEAT_COSTS[kind]["reduced"])
     if not journal.in_motion:
         return at_rest
-    loads, steps = scene.loads, float(STEPS_PER_CASE)
-    if loads.source == "simulate" and loads.duration:
-        steps = loads.duration / (loads.step * journal.every(loads.step))
+    steps, length, loads = float(STEPS_PER_CASE), simulated_length(scene), scene.loads
+    if length is not None:
+        steps = length / (loads.step * journal.every(loads.step))
     return step + before / steps
