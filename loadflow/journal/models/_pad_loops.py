@@ -150,15 +150,16 @@ def _newton(
 def try_other_pads(work, pads, pad_work, q, reached, speed, near):
     """Give and take films as `moving_pads.other_pads` says; whether any has changed.
 
-    Pads at a gap up to `near` keep theirs.
+    Pads keep theirs up to a share `near` of the widest gap that holds one.
     """
     sense, changed, count = 1 if speed < 0.0 else 0, False, pad_work.on.size
     spare_state(work, pad_work, True)
+    wide = near * pads.widest[sense]
     finite = reached[0] - reached[0] == 0.0 and reached[1] - reached[1] == 0.0
     for j in range(count):
         lift = lift_of(pads, pad_work.tilts, NEXT, j, reached[0], reached[1])
         gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
-        if finite and pad_work.on[j] and abs(lift) < FLAT and gap > near:
+        if finite and pad_work.on[j] and abs(lift) < FLAT and gap > wide:
             put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     films = 0
@@ -288,7 +289,7 @@ def solve_on_pads(
             elif resting:
                 pass
             elif not (converged or other) and try_other_pads(
-                work, pads, pad_work, q, new, omega, -np.inf
+                work, pads, pad_work, q, new, omega, 0.0
             ):
                 other = True
                 set_out(film, work, pads, pad_work, q, step_before > 0.0)

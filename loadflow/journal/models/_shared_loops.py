@@ -19,6 +19,7 @@ from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
 from loadflow.journal.models._shared_pad_kernels import (
+    LATER,
     begin_tilts,
     carry_side,
     correct_side,
@@ -335,7 +336,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                 shared.steps[0] = step
                 continue
             one.work.kept[0], other.work.kept[0] = 0.0, 0.0
-            if not tried:
+            if not tried and share <= LATER:
                 tried = try_others(one, omega, begun)
                 tried = try_others(other, omega, begun) or tried
                 if tried:

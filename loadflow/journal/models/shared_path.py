@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -207,7 +207,7 @@ class _March:
             np.array(load), now, before, new, step, missing, system=np.zeros((many, many + 1)),
             slip=slip, held=np.ones((many - SHAFT) // 2), steps=np.zeros(1), told=np.zeros(2),
         )  # fmt: skip
-        self.before: list[tuple[Array, Array]] = []
+        self.before: list[tuple[NDArray[Any], NDArray[Any]]] = []
 
     def _films(
         self, bearings: Sequence[JournalGeometry], options: Sequence[Film], most: Array, level: int
@@ -345,7 +345,7 @@ class _March:
         for k, level in enumerate(levels):
             if level != self.levels[k]:
                 self._take(k, level)
-        kept = [*self.shared[1:3], self.shared.steps]
+        kept: list[NDArray[Any]] = [*self.shared[1:3], self.shared.steps]
         for side in self.sides:
             kept += [
                 side.place,
