@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.errors import SolverError
+from loadflow.errors import InputError, SolverError
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -257,7 +257,7 @@ class _March:
 
         Raises
         ------
-        loadflow.errors.SolverError
+        loadflow.errors.InputError, loadflow.errors.SolverError
             They have none at the `last` place that is tried.
         """
         for k, (side, model, gap) in enumerate(zip(self.sides, self.films[LEVELS[0]], self.gaps)):
@@ -270,7 +270,7 @@ class _March:
                 first, _ = first_on_pads(
                     model.bearing, model.options.isothermal(), *given, side.place[:2]
                 )
-            except SolverError:
+            except (InputError, SolverError):  # the former where they meet the shaft
                 if last:
                     raise
                 return False
