@@ -61,6 +61,8 @@ from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
 from loadflow.numerics.references import refer
 
+LATER = 0.125  # share of a step down to which the pads stay: one that is let go drops the shaft
+
 
 @once
 def _steps(film, work, pads, pad_work, q, load, size, step):
@@ -288,7 +290,7 @@ def solve_on_pads(
                     set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif resting:
                 pass
-            elif not (converged or other) and try_other_pads(
+            elif not (converged or other or share > LATER) and try_other_pads(
                 work, pads, pad_work, q, new, omega, 0.0
             ):
                 other = True

@@ -15,11 +15,11 @@ from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import has_gap, narrowest, place, turn
 from loadflow.journal.models._composed_kernels import balance, matrix, slopes_of_balance
 from loadflow.journal.models._composed_loops import ALIKE, KEPT, MORE, ROOM, keep
+from loadflow.journal.models._pad_loops import LATER
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
 from loadflow.journal.models._shared_pad_kernels import (
-    LATER,
     begin_tilts,
     carry_side,
     correct_side,

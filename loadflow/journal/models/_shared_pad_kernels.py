@@ -39,7 +39,6 @@ from loadflow.journal.models._stop_kernels import stop, stop_on_pads
 from loadflow.journal.models.shared_sides import PaddedSide
 
 _SIZE = 4  # coordinates of a shaft that tilts
-LATER = 0.125  # share of a step down to which the pads stay: stops would do what their film does
 _NEAR = 0.5  # share of the widest gap that holds a pad, up to which it keeps its film
 
 
