@@ -19,7 +19,7 @@ from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import make_scene
-from loadflow.scene.shaft_place import floating
+from loadflow.scene.shaft_place import floating, move_together
 from loadflow.scene.thrust import Thrust
 from loadflow.stages import bores, thrust
 from loadflow.stages.effects import clearances
@@ -125,6 +125,16 @@ def test_a_plan_feeds_films_back_where_the_accuracy_asks_for_it():
     assert plan.accurate
     rough = make_plan(scene.model_copy(update={"accuracy": 1e6}))
     assert not CLEARANCES.is_on(rough.scene)
+
+
+def test_a_plan_follows_a_shaft_on_tilting_pads_as_in_other_bores():
+    bore = {"kind": "tilting pads", "count": 4, "arc": 1.3, "preload": 0.4, "angle": np.pi / 4}
+    own = {"diameter": 2.0, "width": 1.2, "relative_clearance": 1e-3, "shape": bore}
+    scene = scene_of(geometry=own)
+    on = CLEARANCES.switched(scene, True)
+    assert CLEARANCES.is_on(on)
+    assert [move_together(on.shaft, on.journal, one) for one in on.shaft.concepts] == [True]
+    assert not CLEARANCES.is_on(CLEARANCES.switched(on, False))
 
 
 @pytest.mark.slow

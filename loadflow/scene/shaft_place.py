@@ -87,8 +87,7 @@ def _followable(options: Journal) -> bool:
     """Whether the loop knows the film of a bearing."""
     film, line = options.film_model, Line(tilt=np.zeros((1, 2)))
     plain = options.heat is None or isinstance(options.heat, Heat)
-    pads = any(part.tilting for part in options.geometry.shape.segments)
-    return plain and not pads and why_not("in_motion", film, options.geometry, line) is None
+    return plain and why_not("in_motion", film, options.geometry, line) is None
 
 
 def check_seats(shaft: Shaft, journal: Journal) -> None:
@@ -104,8 +103,8 @@ def check_seats(shaft: Shaft, journal: Journal) -> None:
         if felt and not move_together(shaft, journal, concept):
             raise ValueError(
                 f"shaft: support of bearing {felt[0]} with takes_moment = true: what a seat holds "
-                "is followed where a shaft lies in two films, without tilting pads or heat over "
-                'the area; give both its bearings supports of stiffness = "journal" and '
+                "is followed where a shaft lies in two films, without heat over the area; "
+                'give both its bearings supports of stiffness = "journal" and '
                 "takes_moment = true, and those that align themselves a seat, or leave out "
                 "takes_moment"
             )

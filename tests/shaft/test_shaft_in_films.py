@@ -10,6 +10,7 @@ import xarray as xr
 
 from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
+from loadflow.journal.models.shared_path import SharedPath
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.shaft_place import move_together
 from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint, reactions
@@ -155,15 +156,21 @@ def test_a_shaft_on_rigid_bearings_has_no_tilt_in_clearances():
 
 
 LEMON = {"kind": "lobes", "count": 2, "preload": 0.5}
+PADS = {"kind": "tilting pads", "count": 5, "arc": 1.0, "preload": 0.3, "angle": np.pi / 5}
 
 
-@pytest.mark.parametrize("shape", ["cylindrical", "lemon"])
+def scene_in(shape: dict, **film) -> Scene:
+    """The same shaft in bores of a shape."""
+    bore = {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3, "shape": shape}
+    return scene_of(geometry=bore, **film)
+
+
+@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, LEMON, PADS])
 def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved, shape):
     """Under the loads that the shaft stage tells, around the shaft as it tells it."""
     scene, loads, found = moved
-    if shape == "lemon":
-        bore = {"diameter": 2.0, "width": 1.0, "relative_clearance": 1e-3, "shape": LEMON}
-        scene = scene_of(geometry=bore)
+    if shape["kind"] != "cylindrical":
+        scene = scene_in(shape)
         found = shaft.bearing_loads(scene, None, {"loads": loads})
     both = films_together(scene, scene.shaft.concepts[0], loads, TILT).path
     time, speed = loads["time"].values, loads["speed"].values
@@ -181,6 +188,45 @@ def test_each_film_alone_goes_the_way_that_shaft_and_films_go_together(moved, sh
         assert off < 2e-3 * options.geometry.clearance
         ours = both.paths[k]["minimum_film"].values[late]
         assert np.allclose(alone["minimum_film"].values[late], ours, rtol=5e-3)
+        if shape is PADS:
+            tilts = (one["pad_tilt"].values[late] for one in (alone, both.paths[k]))
+            np.testing.assert_allclose(*tilts, atol=1e-6)
+
+
+def path_in(scene: Scene, loads: xr.Dataset) -> SharedPath:
+    return films_together(scene, scene.shaft.concepts[0], loads, TILT).path
+
+
+def test_steps_of_a_shaft_on_pads_are_of_second_order_while_pads_come_and_go():
+    """Halving the step takes the error of place and tilts to a quarter."""
+    scene, paths = scene_in(PADS, lubricant={"viscosity": 0.1}), []
+    for parts in (1, 2, 8):
+        steps, step = 160 * parts + 1, 0.1 / parts
+        paths.append(path_in(scene, loads_of(swing=1.0, steps=steps, step=step)))
+    finest = paths.pop()
+    lies = np.stack([one["pad_tilt"].values == 0.0 for one in finest.paths])
+    assert (lies[:, 1:] != lies[:, :-1]).sum() >= 4  # pads lost their film, and got it back
+    errors = []
+    for path, every in zip(paths, (8, 4)):
+        off = path.position - finest.position[::every]
+        errors.append(float(np.sqrt(np.mean(off**2))))
+    assert errors[1] < 0.35 * errors[0] < 0.35 * 1e-2 * 1e-3  # of the clearance
+
+
+def test_a_mirrored_shaft_on_pads_goes_the_mirrored_way():
+    """Loads and rotation seen in the vertical plane through the shaft."""
+    scene, loads = scene_in(PADS), loads_of(steps=200)
+    seen = {"hub_force": [1.0, -1.0, 1.0], "hub_moment": [-1.0, 1.0, -1.0]}
+    mirrored = loads.assign(speed=-loads["speed"])
+    for name, signs in seen.items():
+        mirrored = mirrored.assign({name: loads[name] * xr.DataArray(signs, dims="axis")})
+    ours, theirs = path_in(scene, loads), path_in(scene, mirrored)
+    clearance = 1e-3
+    np.testing.assert_allclose(theirs.position, ours.position * [1, -1], atol=1e-6 * clearance)
+    np.testing.assert_allclose(theirs.tilt, ours.tilt * [-1, 1], atol=1e-6 * clearance)
+    for one, other in zip(ours.paths, theirs.paths):
+        turned = -other["pad_tilt"].values[:, ::-1]  # the last pad is the first one's image
+        np.testing.assert_allclose(turned, one["pad_tilt"], atol=1e-5 * clearance)
 
 
 def test_forces_and_moments_balance(moved):
@@ -199,8 +245,9 @@ def test_forces_and_moments_balance(moved):
     assert np.allclose(ours, (about_y, about_z), atol=1e-5 * np.abs(about_y).max())
 
 
-def test_under_a_load_that_stays_the_shaft_comes_to_rest_as_with_films_at_rest():
-    scene, loads = scene_of(), loads_of(swing=0.0)
+@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, PADS])
+def test_under_a_load_that_stays_the_shaft_comes_to_rest_as_with_films_at_rest(shape):
+    scene, loads = scene_in(shape), loads_of(swing=0.0)
     found = shaft.bearing_loads(scene, None, {"loads": loads}).isel(time=-1)
     concept, one = scene.shaft.concepts[0], loads.isel(time=[0])
     models = {
@@ -224,7 +271,7 @@ def test_films_of_the_run_are_those_that_tilt_the_shaft(moved):
         assert np.allclose(told[name]["tilt"].values, both.tilt[:, k])
 
 
-@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, LEMON])
+@pytest.mark.parametrize("shape", [{"kind": "cylindrical"}, LEMON, PADS])
 def test_a_shaft_that_would_leave_its_bore_is_held_where_it_touches(shape):
     """A slope beyond the clearance: surfaces touch at an end, the gap stays open."""
     wide = {"diameter": 2.0, "width": 1.9, "relative_clearance": 1e-3, "shape": shape}

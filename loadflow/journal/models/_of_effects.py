@@ -27,25 +27,27 @@ def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
 
     The film is its first argument.
     """
-    return _where(lambda kind: kind is not SmoothFilm, nothing)
+    return where(lambda kind: kind is not SmoothFilm, nothing)
 
 
 def of_shell(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
     """The same of a function of a `ShelledFilm`; `nothing` is it in all others."""
-    return _where(lambda kind: kind is ShelledFilm, nothing)
+    return where(lambda kind: kind is ShelledFilm, nothing)
 
 
-def _where(
+def where(
     has: Callable[[type], bool], nothing: Callable[..., Any]
 ) -> Callable[[Callable[..., Any]], Any]:
+    """The same of a function whose first argument is of a type that `has` the effect."""
+
     def of(function: Callable[..., Any]) -> Any:
         @wraps(function)
         def called(*given: Any) -> Any:
             return function(*given)  # where nothing is compiled
 
         @overload(called, jit_options=_OPTIONS, strict=False)
-        def chosen(film: Any, *others: Any) -> Callable[..., Any]:
-            held = getattr(film, "held", film)
+        def chosen(first: Any, *others: Any) -> Callable[..., Any]:
+            held = getattr(first, "held", first)
             return function if has(held.instance_class) else nothing
 
         return called

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.journal.cavitation import DLOAD, LOAD
+from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import has_gap, turn
@@ -33,6 +33,15 @@ from loadflow.journal.models._pad_kernels import (
     set_out,
     spare_state,
 )
+from loadflow.journal.models._pad_step_kernels import (
+    KEPT_ON_PADS,
+    carry_on_pads,
+    condense,
+    moments_of_pads,
+    move_on_pads,
+    share_on_pads,
+    turn_pads,
+)
 from loadflow.journal.models._reduced_loops import (
     COARSEST,
     FINEST,
@@ -52,95 +61,21 @@ from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
 from loadflow.journal.solvers.moving_pads import FLAT, NEAR
 from loadflow.numerics.references import refer
 
-_KEPT = 0.3  # share of a gap, or of the tilt of a pad, that a step leaves
-_SMALL = 0.03  # tilt of a pad, in clearances, from which it may grow threefold in a step
+LATER = 0.125  # share of a step down to which the pads stay: one that is let go drops the shaft
 
 
 @once
-def _carry(film, work, pads, pad_work, size):
-    """Load of each pad beside that of the edge pressure, and what the columns carry on it."""
-    nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
-    z, weights, columns, unit = film.nodes.z, film.nodes.weights, work.columns, film.ring.area
-    pad_work.load[:] = 0.0
-    pad_work.carried[:] = 0.0
-    for i in range(nx):
-        j = pads.cell[i]
-        if film.ring.groove[i]:
-            continue
-        c, s = unit * film.ring.load_x[i], unit * film.ring.load_y[i]
-        load, turned = 0.0, 0.0
-        for k in range(m):
-            part = weights[k] * (work.state[LOAD, i, k] - film.ring.p_edge)
-            load += part
-            turned += part * z[k]
-        pad_work.load[j, 0] += load * c
-        pad_work.load[j, 1] += load * s
-        pad_work.load[j, 2] -= turned * s
-        pad_work.load[j, 3] += turned * c
-        for column in range(1 + size):
-            load, turned = 0.0, 0.0
-            for k in range(m):
-                part = weights[k] * work.state[DLOAD, i, k] * columns[column, i, k]
-                load += part
-                turned += part * z[k]
-            pad_work.carried[j, column, 0] += load * c
-            pad_work.carried[j, column, 1] += load * s
-            pad_work.carried[j, column, 2] -= turned * s
-            pad_work.carried[j, column, 3] += turned * c
-
-
-@once
-def _moments(film, work, pads):
-    """Sum of the squared moments of the pads about their pivots, N², over the shaft radius."""
-    m, unit, total, moment, last = film.nodes.slopes.shape[1], film.ring.area, 0.0, 0.0, -1
-    for i in range(work.u.shape[0]):
-        j = pads.cell[i]
-        if j != last:
-            total, moment, last = total + moment * moment, 0.0, j
-        if film.ring.groove[i]:
-            continue
-        load = 0.0
-        for k in range(m):
-            load += film.nodes.weights[k] * (work.state[LOAD, i, k] - film.ring.p_edge)
-        arm = pads.along[j, 0] * film.ring.load_x[i] + pads.along[j, 1] * film.ring.load_y[i]
-        moment += unit * load * arm
-    return total + moment * moment
-
-
-@once
-def _steps(film, work, pads, pad_work, load, size, step):
-    """Newton step (4,) of the shaft, and those of the tilts, shortened where they are too long.
-
-    A pad follows the shaft so that it has no moment: what the load of a pad changes by its tilt is
-    what it changes by the place of the shaft along the tangent.
-    """
-    system, count = pad_work.system, pad_work.on.size
+def _steps(film, work, pads, pad_work, q, load, size, step):
+    """Newton step (4,) of the shaft, and those of the tilts, shortened where they are too long."""
+    system = pad_work.system
+    condense(work, pads, pad_work, max(size, 2))
     step[:] = 0.0
-    for j in range(count):
+    for j in range(pad_work.on.size):
         pad_work.tilts[STEP, j] = 0.0
     for a in range(size):
-        system[a, size] = -load[a]
+        system[a, size] = -(load[a] - work.load[a] + work.carried[0, a])
         for b in range(size):
-            system[a, b] = 0.0
-    for j in range(count):
-        ex, ey = pads.along[j, 0], pads.along[j, 1]
-        carried, follow = pad_work.carried[j], pad_work.follow[j]
-        own = ex * (pad_work.load[j, 0] - carried[0, 0])
-        own += ey * (pad_work.load[j, 1] - carried[0, 1])
-        follow[0] = own
-        for b in range(size):
-            follow[1 + b] = ex * carried[1 + b, 0] + ey * carried[1 + b, 1]
-        by_tilt = ex * (ex * carried[1, 0] + ey * carried[1, 1])
-        by_tilt += ey * (ex * carried[2, 0] + ey * carried[2, 1])
-        follow[5] = by_tilt
-        for a in range(size):
-            system[a, size] += pad_work.load[j, a] - carried[0, a]
-            turned = 0.0
-            if by_tilt != 0.0:
-                turned = (ex * carried[1, a] + ey * carried[2, a]) / by_tilt
-            system[a, size] -= turned * own
-            for b in range(size):
-                system[a, b] += carried[1 + b, a] - turned * follow[1 + b]
+            system[a, b] = work.carried[1 + b, a]
     if size > 0 and not solve_system(system, size):
         return
     change, peak = 0.0, film.ring.scale
@@ -148,87 +83,22 @@ def _steps(film, work, pads, pad_work, load, size, step):
         for k in range(film.nodes.slopes.shape[1]):
             change = max(change, abs(work.columns[0, i, k]))
             peak = max(peak, work.state[LOAD, i, k])
-    excess = max(1.0, change / (peak * STEP_LIMIT))
+    share = 1.0 / max(1.0, change / (peak * STEP_LIMIT))
     for a in range(size):
-        step[a] = system[a, size]
-    for j in range(count):
-        follow, moves = pad_work.follow[j], 0.0
-        if pad_work.on[j] and follow[5] != 0.0:
-            moves = follow[0]
-            for b in range(size):
-                moves -= follow[1 + b] * step[b]
-            moves /= follow[5]
-        pad_work.tilts[STEP, j] = moves / excess
-    for a in range(size):
-        step[a] /= excess
-
-
-@inner
-def _share(film, work, pads, pad_work, step, kept):
-    """Share of a step of shaft and tilts that leaves every place of the pads `kept` of its gap.
-
-    Places are cell centres and faces, to the ends of the bearing: the ends of a pad are faces.
-    """
-    share, ring, tilts = 1.0, film.ring, pad_work.tilts[STEP]
-    for i in range(ring.cos.size):
-        j = pads.cell[i]
-        if j >= 0:
-            at = ring.cos[i], ring.sin[i], ring.base[i]
-            share = _share_at(film, work, pads.along[j], tilts[j], step, kept, at, share)
-        j, at = pads.face[i], (ring.cos_face[i], ring.sin_face[i], ring.base_face[i])
-        share = _share_at(film, work, pads.along[j], tilts[j], step, kept, at, share)
-    return share
-
-
-@inner
-def _share_at(film, work, along, turns, step, kept, at, share):
-    """At most `share`: that of a step which leaves `kept` of the gap at one angle around.
-
-    The pad turns by `turns`; `at`: cosine and sine of the angle, and H of the centred shaft there.
-    """
-    c, s, base = at
-    dx, dy = step[0] + turns * along[0], step[1] + turns * along[1]
-    for k in range(film.places.z.size):
-        z = film.places.z[k]
-        closes = (dx + step[3] * z) * c + (dy - step[2] * z) * s
-        gap = base + film.places.depth[k] - work.centre[0, k] * c - work.centre[1, k] * s
-        if closes > 0.0 and share * closes > (1.0 - kept) * gap:
-            share = max((1.0 - kept) * gap / closes, 0.0)
-    return share
+        step[a] = share * system[a, size]
+    turn_pads(pads, pad_work, q, step, share, size)
 
 
 @once
 def _advance(film, work, pads, pad_work, q, step):
-    """Move film, shaft and pads by a Newton step, or by the share of it that leaves a film.
-
-    A pad that tilts the other way has no film, and would stay so.
-    """
-    m, tilts = film.nodes.slopes.shape[1], pad_work.tilts
-    for j in range(pad_work.on.size):
-        if tilts[STEP, j] == 0.0:
-            continue
-        before = lift_of(pads, tilts, NEXT, j, q[0], q[1])
-        after = lift_of(pads, tilts, NEXT, j, q[0] + step[0], q[1] + step[1]) + tilts[STEP, j]
-        sign = -1.0 if before < 0.0 else 1.0
-        most = max(abs(before), _SMALL) / _KEPT
-        tilts[STEP, j] += sign * min(max(sign * after, _KEPT * abs(before)), most) - after
-    share = _share(film, work, pads, pad_work, step, _KEPT)
+    """Move film, shaft and pads by a Newton step, or by the share of it that leaves a film."""
+    tilts = pad_work.tilts
+    share = share_on_pads(film, work, pads, pad_work, step, KEPT_ON_PADS)
     for a in range(4):
         step[a] *= share
     for j in range(pad_work.on.size):
         tilts[STEP, j] *= share
-        tilts[NEXT, j] += tilts[STEP, j]
-    for i in range(work.u.shape[0]):
-        if film.ring.groove[i]:
-            continue
-        j = pads.cell[i]
-        turns = tilts[STEP, j]
-        dx, dy = step[0] + turns * pads.along[j, 0], step[1] + turns * pads.along[j, 1]
-        for k in range(m):
-            change = work.columns[0, i, k] + dx * work.columns[1, i, k] + dy * work.columns[2, i, k]
-            if step[2] != 0.0 or step[3] != 0.0:
-                change += step[2] * work.columns[3, i, k] + step[3] * work.columns[4, i, k]
-            work.u[i, k] -= change
+    move_on_pads(film, work, pads, pad_work, step, 1.0)
     for a in range(4):
         q[a] += step[a]
     place_on_pads(film, work, pads, pad_work, q, NEXT)
@@ -250,7 +120,7 @@ def _newton(
     place_on_pads(film, work, pads, pad_work, q, NEXT)
     while True:
         residual = balance(film, work, wedge, rate) / flux
-        missing = _moments(film, work, pads)
+        missing = moments_of_pads(film, work, pads, pad_work)
         for a in range(size):
             missing += (load[a] - work.load[a]) ** 2
         residual = max(residual, np.sqrt(missing) / force_scale)
@@ -273,20 +143,25 @@ def _newton(
         if not factorise(work.matrix):
             return residual, spent, False, rounding
         substitute(work.matrix, work.columns, 1 + columns)
-        _carry(film, work, pads, pad_work, columns)
-        _steps(film, work, pads, pad_work, load, size, step)
+        carry_on_pads(film, work, pads, pad_work, columns)
+        _steps(film, work, pads, pad_work, q, load, size, step)
         _advance(film, work, pads, pad_work, q, step)
 
 
-@once
-def _other_pads(work, pads, pad_work, q, reached, speed):
-    """Give and take films as `moving_pads.other_pads` says; whether any has changed."""
+@inner
+def try_other_pads(work, pads, pad_work, q, reached, speed, near):
+    """Give and take films as `moving_pads.other_pads` says; whether any has changed.
+
+    Pads keep theirs up to a share `near` of the widest gap that holds one.
+    """
     sense, changed, count = 1 if speed < 0.0 else 0, False, pad_work.on.size
     spare_state(work, pad_work, True)
+    wide = near * pads.widest[sense]
     finite = reached[0] - reached[0] == 0.0 and reached[1] - reached[1] == 0.0
     for j in range(count):
         lift = lift_of(pads, pad_work.tilts, NEXT, j, reached[0], reached[1])
-        if finite and pad_work.on[j] and abs(lift) < FLAT:
+        gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+        if finite and pad_work.on[j] and abs(lift) < FLAT and gap > wide:
             put_on(work, pads, pad_work, q, speed, j, not pad_work.on[j])
             changed = True
     films = 0
@@ -300,8 +175,24 @@ def _other_pads(work, pads, pad_work, q, reached, speed):
     return changed
 
 
-@once
-def _summed(film, work, pads, pad_work, q, wedge, rate, row):
+@inner
+def come_and_go(work, pads, pad_work, q, speed):
+    """Give films to pads that one holds at rest, and take those of others; whether any changed."""
+    changed, held, sense = False, 0, 1 if speed < 0.0 else 0
+    for j in range(pad_work.on.size):
+        gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+        held += 1 if gap <= pads.widest[sense] else 0
+    for j in range(pad_work.on.size):
+        gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
+        holds = gap <= pads.widest[sense]
+        if holds != pad_work.on[j] and (holds or held > 1):  # on one it goes sideways
+            put_on(work, pads, pad_work, q, speed, j, holds)
+            changed = True
+    return changed
+
+
+@inner
+def summarise_on_pads(film, work, pads, pad_work, q, wedge, rate, row):
     """`summarise`, with the drag on pads without a film, but not what these drag along."""
     for i in range(pads.cell.size):
         film.ring.groove[i] = pads.groove[i]
@@ -361,7 +252,7 @@ def solve_on_pads(
                         work.step[a] = ratio * (q[a] - before[a]) if a < size else 0.0
                     for j in range(count):
                         own[STEP, j] = ratio * (own[LAST, j] - own[BEFORE, j])
-                    ahead = _share(film, work, pads, pad_work, work.step, 0.5) == 1.0
+                    ahead = share_on_pads(film, work, pads, pad_work, work.step, 0.5) == 1.0
                     for a in range(size if ahead else 0):
                         new[a] = q[a] + work.step[a]
                     for j in range(count if ahead else 0):
@@ -392,24 +283,16 @@ def solve_on_pads(
                 work.past[6] = share * whole
                 if done >= 1.0:
                     wedge = 0.5 * film.ring.slope * omega
-                    _summed(film, work, pads, pad_work, q, wedge, thin * rate, rows[n])
+                    summarise_on_pads(film, work, pads, pad_work, q, wedge, thin * rate, rows[n])
                     for j in range(count):
                         tilts[n, j] = own[LAST, j]
-                changed, held = False, 0
-                for j in range(count):
-                    gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
-                    held += 1 if gap <= pads.widest[1 if omega < 0.0 else 0] else 0
-                for j in range(count if not resting else 0):
-                    gap = 1.0 - q[0] * pads.toward[j, 0] - q[1] * pads.toward[j, 1]
-                    holds = gap <= pads.widest[1 if omega < 0.0 else 0]
-                    if holds != pad_work.on[j] and (holds or held > 1):  # on one it goes sideways
-                        put_on(work, pads, pad_work, q, omega, j, holds)
-                        changed = True
-                if changed:
+                if not resting and come_and_go(work, pads, pad_work, q, omega):
                     set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif resting:
                 pass
-            elif not converged and not other and _other_pads(work, pads, pad_work, q, new, omega):
+            elif not (converged or other or share > LATER) and try_other_pads(
+                work, pads, pad_work, q, new, omega, 0.0
+            ):
                 other = True
                 set_out(film, work, pads, pad_work, q, step_before > 0.0)
             elif share > smallest:

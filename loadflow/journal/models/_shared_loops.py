@@ -7,140 +7,44 @@ factors and limits as in `_composed_loops`.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
-from loadflow.journal.models._composed_gap_kernels import (
-    has_gap,
-    narrowest,
-    place,
-    share_of_step,
-    turn,
-)
-from loadflow.journal.models._composed_kernels import balance, carry, matrix, slopes_of_balance
-from loadflow.journal.models._composed_loops import (
-    ALIKE,
-    KEPT,
-    MORE,
-    ROOM,
-    correct,
-    keep,
-    share_inside,
-)
-from loadflow.journal.models._integral_kernels import summarise
+from loadflow.journal.models._composed_gap_kernels import has_gap, narrowest, place, turn
+from loadflow.journal.models._composed_kernels import balance, matrix, slopes_of_balance
+from loadflow.journal.models._composed_loops import ALIKE, KEPT, MORE, ROOM, keep
+from loadflow.journal.models._pad_loops import LATER
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
+from loadflow.journal.models._shared_pad_kernels import (
+    begin_tilts,
+    carry_side,
+    correct_side,
+    give_and_take,
+    has_room,
+    keep_tilts,
+    moments_of_side,
+    place_side,
+    set_out_side,
+    share_of_side,
+    shorten_side,
+    stop_side,
+    summarise_side,
+    take_back,
+    try_others,
+)
 from loadflow.journal.models._shell_step_kernels import NEAR, follow_shell
 from loadflow.journal.models._small_systems import solve_system
-from loadflow.journal.models._step_kernels import leaves_room
-from loadflow.journal.models._stop_kernels import stop
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models._touch_kernels import touch
-from loadflow.journal.models.composed_film import Composed, ComposedWork
-from loadflow.journal.models.slow_heat import Warmth, lighter, slow_heat
+from loadflow.journal.models.shared_sides import COORDINATES, SHAFT
+from loadflow.journal.models.shared_sides import Shared as Shared  # kernels compiled before ask
+from loadflow.journal.models.shared_sides import Side as Side  # for both here
+from loadflow.journal.models.slow_heat import lighter, slow_heat
 from loadflow.numerics.references import refer
-
-Array = NDArray[np.float64]
-
-COORDINATES = 4
-SHAFT = 8  # unknowns of the shaft: its coordinates, and moments of both films; then those of seats
-
-
-class Side(NamedTuple):
-    """One of the two films.
-
-    Attributes
-    ----------
-    film : Composed
-        Its constants.
-    work : ComposedWork
-        Its work arrays, which hold the film at the first time.
-    lies : array (4, m)
-        Place of the shaft in it by the coordinates, and by the moments of both films and seats.
-    slipped : array (4,)
-        What the shell has slid in its seat, in the units of the place: two turns.
-    felt : array (4, SHAFT)
-        What the coordinates feel of its load, and which of it these moments are.
-    given : array (n, 4)
-        Place where coordinates and moments are 0.
-    bend : array (n, 2)
-        Curvature of the shaft.
-    stop : array (2,)
-        Gap at a bearing end, clearances, below which surfaces touch, and the load there, N, at
-        which it would close; no load: they do not.
-    arcs : array (s, 5)
-        Arcs of the bore that they touch, as `Bore.arcs`.
-    place, new : array (4,)
-        At the last time, and at the next.
-    past : array (8,)
-        Place at the time before the last; bend then, and at the last.
-    rows : array (n, RESULTS)
-        Results, but for the first row filled.
-    thin : array (2,)
-        Viscosity and density of the oil over those of the film.
-    warmth : Warmth
-        Heat that is stored.
-    states : array (n, STATES)
-        As `slow_heat` fills them.
-    """
-
-    film: Composed
-    work: ComposedWork
-    lies: Array
-    slipped: Array
-    felt: Array
-    given: Array
-    bend: Array
-    stop: Array
-    arcs: Array
-    place: Array
-    new: Array
-    past: Array
-    rows: Array
-    thin: Array
-    warmth: Warmth
-    states: Array
-
-
-class Shared(NamedTuple):
-    """The shaft in both films.
-
-    Attributes
-    ----------
-    load : array (n, COORDINATES)
-        What the coordinates are to feel, N.
-    at, before, new, step, missing : array (m,)
-        Unknowns of the shaft at the last two times and at the next, their step, and what is missing
-        in their equations, N. First the coordinates, then the moments of the films, N, over the
-        radius of each; with seats, moments that these would hold if they did not slide.
-    system : array (m, m + 1)
-        Linear system of a step.
-    slip, held : array (n, 2), array (2,)
-        Moment at which each seat slides, N, over the radius of its film; share of its own one that
-        it holds. Without seats (0, 2) and (0,).
-    steps : array (1,)
-        Step to the last time, s.
-    told : array (2,)
-        Residual and iterations of the last Newton iteration.
-    """
-
-    load: Array
-    at: Array
-    before: Array
-    new: Array
-    step: Array
-    missing: Array
-    system: Array
-    slip: Array
-    held: Array
-    steps: Array
-    told: Array
 
 
 @inner
@@ -165,7 +69,7 @@ def _move(side, step, share):
 @once
 def _residual(one, other, shared, speed, rate, scale):
     """Largest residual of both films and of what is missing, which is taken off `missing`."""
-    residual = 0.0
+    residual, total = 0.0, 0.0
     for k in range(2):
         side = one if k == 0 else other
         film, work = side.film, side.work
@@ -175,7 +79,8 @@ def _residual(one, other, shared, speed, rate, scale):
         residual = max(residual, unfed(film, work))
         touch(film, work, side.new)
         if side.stop[1] > 0.0:
-            stop(side)
+            stop_side(side)
+        total += moments_of_side(side)
         if not abs(work.load[0]) + abs(work.load[1]) < np.inf:
             return np.inf
         if film.give > 0.0 and not has_gap(film, work):
@@ -183,7 +88,6 @@ def _residual(one, other, shared, speed, rate, scale):
         for b in range(SHAFT):
             for a in range(4):
                 shared.missing[b] -= side.felt[a, b] * (work.load[a] + work.touch[0, a])
-    total = 0.0
     for b in range(shared.missing.size):
         total += shared.missing[b] ** 2
     return max(residual, np.sqrt(total) / scale)
@@ -212,7 +116,7 @@ def _solve(one, other, shared, speed, rate, fresh):
         substitute(work.matrix, work.columns, columns)
         follow_shell(film, work, wedge, side.thin[0] * rate, columns, NEAR)
         follow_grooves(film, work, wedge, side.thin[0] * rate, size, fresh)
-        carry(film, work, size)
+        carry_side(side)
         for c in range(SHAFT):
             for a in range(size):
                 if side.felt[a, c] == 0.0:
@@ -242,17 +146,15 @@ def _shortened(one, other, shared):
                 change = max(change, abs(work.columns[0, i, j]))
                 peak = max(peak, work.state[LOAD, i, j])
         share = min(share, peak * STEP_LIMIT / max(change, 1e-300))
+    left = 1.0
     for k in range(2):
         side = one if k == 0 else other
-        film, work = side.film, side.work
         _move(side, shared.step, share)
-        if film.give == 0.0 and film.ring.shaped:
-            way = work.step[0], work.step[1], work.step[2], work.step[3]
-            share *= share_of_step(film, work, way[0], way[1], way[2], way[3], KEPT)
-        elif film.give == 0.0:
-            share *= share_inside(film, work, work.step)
+        left = min(left, share_of_side(side, share))
     for b in range(shared.step.size):
-        shared.step[b] *= share
+        shared.step[b] *= share * left
+    shorten_side(one, left)
+    shorten_side(other, left)
 
 
 @once
@@ -276,10 +178,10 @@ def _advance(one, other, shared):
             side = one if k == 0 else other
             film, work = side.film, side.work
             _move(side, shared.step, 1.0)
-            correct(film, work, work.step, 4, share)
+            correct_side(side, share, done)
             for a in range(4):
                 side.new[a] += (share - done) * work.step[a]
-            place(film, work, side.new)
+            place_side(side)
             if film.give > 0.0:
                 least = least_one if k == 0 else least_other
                 open_yet = open_yet and narrowest(film, work) >= least
@@ -310,7 +212,7 @@ def _newton(one, other, shared, n, to, speed, rate, tolerance, max_iterations):
             side.work.step[a] = 0.0
         thin = side.thin[0]
         turn(side.film, side.work, thin * speed, side.thin[1] / (thin * thin))
-        place(side.film, side.work, side.new)
+        place_side(side)
     for b in range(COORDINATES):
         total += (shared.load[n - 1, b] + to * (shared.load[n, b] - shared.load[n - 1, b])) ** 2
     scale = max(np.sqrt(total), 0.5e-3 * one.film.ring.scale * one.film.ring.area)
@@ -356,6 +258,7 @@ def _set_out(one, other, begin):
                 side.new[b] = side.past[b] if first else side.place[b]
             place(film, work, side.new)
             keep(work)
+        set_out_side(side, begin > 1)
 
 
 @outer
@@ -370,7 +273,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
     step_before = shared.steps[0] if begin > 1 else 0.0
     for n in range(begin, time.size):
         whole = time[n] - time[n - 1]
-        share, done, spent = 1.0, 0.0, 0
+        share, done, spent, tried = 1.0, 0.0, 0, False
         for k in range(2):
             side = one if k == 0 else other
             if side.warmth.on:
@@ -383,19 +286,23 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
             step = (to - done) * whole
             rate, weight, weight_before, ratio = two_steps(step, step_before)
             omega = speed[n - 1] + to * (speed[n] - speed[n - 1])
-            ahead = step_before > 0.0
+            ahead = begun = step_before > 0.0
+            if not tried:
+                turns = speed[n - 1] + done * (speed[n] - speed[n - 1])
+                give_and_take(one, turns, begun)
+                give_and_take(other, turns, begun)
             for b in range(shared.new.size):
                 shared.new[b] = shared.at[b]
                 if ahead:
                     shared.new[b] += ratio * (shared.at[b] - shared.before[b])
             for k in range(2):
                 side = one if k == 0 else other
-                film, work = side.film, side.work
+                work = side.work
                 _lay(side, side.new, shared.new, n, to)
                 for a in range(2):
                     work.bend[a] = side.bend[n - 1, a]
                     work.bend[a] += to * (side.bend[n, a] - side.bend[n - 1, a])
-                ahead = ahead and (film.give > 0.0 or leaves_room(film, work, side.place, side.new))
+                ahead = ahead and has_room(side, ratio)
             if not ahead:
                 for b in range(shared.new.size):
                     shared.new[b] = shared.at[b]
@@ -404,6 +311,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                 work = side.work
                 _lay(side, side.new, shared.new, n, to)
                 thin = side.thin[0]
+                begin_tilts(side, ratio, ahead)
                 predict(work, ratio, ahead, thin * weight, thin * weight_before)
                 if not ahead or abs(thin * rate - work.kept[1]) > ALIKE * work.kept[1]:
                     work.kept[0] = 0.0
@@ -416,6 +324,7 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                 for k in range(2):
                     side = one if k == 0 else other
                     keep(side.work)
+                    keep_tilts(side)
                     for a in range(4):
                         side.past[a], side.place[a] = side.place[a], side.new[a]
                     for a in range(2):
@@ -423,18 +332,26 @@ def follow(first, second, shared, begin, time, speed, tolerance, max_iterations)
                 slide(one, other, shared, SHAFT)
                 for b in range(shared.new.size):
                     shared.before[b], shared.at[b] = shared.at[b], shared.new[b]
-                step_before, share, done = step, min(2.0 * share, 1.0), to
+                step_before, share, done, tried = step, min(2.0 * share, 1.0), to, False
                 shared.steps[0] = step
-            elif share > SMALLEST:
-                share *= 0.5
-                one.work.kept[0], other.work.kept[0] = 0.0, 0.0
-            else:
+                continue
+            one.work.kept[0], other.work.kept[0] = 0.0, 0.0
+            if not tried and share <= LATER:
+                tried = try_others(one, omega, begun)
+                tried = try_others(other, omega, begun) or tried
+                if tried:
+                    continue
+            if share <= SMALLEST:
                 return n
+            share *= 0.5
+            take_back(one, tried, begun)
+            take_back(other, tried, begun)
+            tried = False
         for k in range(2):
             side = one if k == 0 else other
             wedge = 0.5 * side.film.ring.slope * side.thin[0] * omega
             rate_k = side.thin[0] * rate
-            summarise(side.film, side.work, side.place, wedge, rate_k, side.rows[n])
+            summarise_side(side, wedge, rate_k, n)
             side.rows[n, at.RESIDUAL] = residual
             side.rows[n, at.ITERATIONS] = spent
             side.rows[n, at.CONVERGED] = 1.0

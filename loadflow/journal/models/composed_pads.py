@@ -68,6 +68,14 @@ class Pads(NamedTuple):
     tilts: Array
 
 
+_FEW, _FLAT = np.zeros(0, dtype=np.int64), np.zeros((0, 2))
+NO_PADS = Pads(
+    _FEW, _FEW, _FLAT, _FLAT, np.zeros(0), np.zeros(0), np.zeros((2, 0)), np.zeros(0, dtype=bool),
+    0.0, np.zeros(2), np.zeros(2), np.zeros(2), np.zeros((2, 0)),
+)  # fmt: skip
+"""Those of a bore that has none."""
+
+
 class PadWork(NamedTuple):
     """Work arrays of pads.
 
@@ -81,6 +89,8 @@ class PadWork(NamedTuple):
         What each carries, N, its moments over the shaft radius.
     carried : array (p, 5, 4)
         What each of the columns carries on it.
+    touch : array (p, 5, 4)
+        What surfaces that touch carry on each, N, then its derivatives by the position.
     follow : array (p, 6)
         Moment, N, and its derivatives by the position of the shaft and by the tilt.
     system : array (4, 5)
@@ -93,6 +103,7 @@ class PadWork(NamedTuple):
     on: NDArray[np.bool_]
     load: Array
     carried: Array
+    touch: Array
     follow: Array
     system: Array
     spare: Array
@@ -131,6 +142,7 @@ def make_pad_work(shape: tuple[int, int], count: int) -> PadWork:
         on=np.zeros(count, dtype=bool),
         load=np.zeros((count, 4)),
         carried=np.zeros((count, 5, 4)),
+        touch=np.zeros((count, 5, 4)),
         follow=np.zeros((count, 6)),
         system=np.zeros((4, 5)),
         spare=np.zeros((2, *shape)),

@@ -10,18 +10,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.errors import InputError, SolverError
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
-from loadflow.journal.models._shared_loops import COORDINATES, SHAFT, Shared, Side, follow
+from loadflow.journal.models._pad_loops import solve_on_pads
+from loadflow.journal.models._shared_loops import follow
 from loadflow.journal.models.composed_film import Composed, ShelledFilm
 from loadflow.journal.models.composed_model import (
     LEVELS,
@@ -31,13 +33,22 @@ from loadflow.journal.models.composed_model import (
     rubs,
     unknowns_on,
 )
+from loadflow.journal.models.composed_pads import first_on_pads
 from loadflow.journal.models.composed_path import STRETCH
 from loadflow.journal.models.ring import no_start
+from loadflow.journal.models.shared_sides import (
+    COORDINATES,
+    SHAFT,
+    Lying,
+    Shared,
+    gap_of_pads,
+    pads_beside,
+    side_of,
+)
 from loadflow.journal.models.slow_heat import (
     COLD,
     THIN,
     cooled,
-    slow_states,
     standing_states,
 )
 from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
@@ -49,60 +60,11 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _LONG = 48  # samples that go on together with few points: more are gone through in vain
-_HOLDS = 4.0  # times the largest load, at which a gap at a bearing end would be closed
 _SHARES = (1.0, 0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2, 0.1, 0.0)  # of the way out of the middle
 _ROOM = 0.1  # gap, clearances, that the first place leaves at bearing ends
-_STICKS = 1e-3  # share of the clearance that a seat gives way by at a bearing end before it slides
 _RESTED = 40  # steps that double, from that of a series to a thousand years
 _NOW = np.zeros(1)
-
-
-class Seats(NamedTuple):
-    """What holds the shells of both films as they turn with the shaft.
-
-    Attributes
-    ----------
-    stiffness : array (2,)
-        Moment over the turn of each, N m/rad; infinite where it turns as it slides alone.
-    slip : array (n, 2)
-        Moment at which it slides, N m; infinite where it does not.
-    """
-
-    stiffness: Array
-    slip: Array
-
-
-class Lying(NamedTuple):
-    """How a shaft lies in two films, and loads them.
-
-    Attributes
-    ----------
-    force : array (n, 2, 2)
-        Load on each film if none takes a moment, N: (time, film, axis).
-    tilt : array (n, 2, 2)
-        Of the shaft in each film then, if it is in the middle of both, rad.
-    bend : array (n, 2, 2)
-        Its curvature in each film, 1/m.
-    by_position : array (2, 2, 2, 2)
-        Tilt by position in the films, rad/m: (film, axis, film, axis).
-    by_moment : array (2, 2, 2, 2)
-        Tilt by the moments of the films, rad/(N m), as the shaft bends and what it rests on turns.
-    felt : array of bool (2,)
-        Whether the shaft feels the moment of each film.
-    touching : array (2,)
-        Gap, m, below which shaft and shell touch at a bearing end.
-    seats : Seats, optional
-        Of shells that turn with the shaft; aligned with it at the first time.
-    """
-
-    force: Array
-    tilt: Array
-    bend: Array
-    by_position: Array
-    by_moment: Array
-    felt: NDArray[np.bool_]
-    touching: Array
-    seats: Seats | None = None
+_MOST_AROUND = 240  # cells, of pads on which a path stops on fewer
 
 
 @dataclass(frozen=True)
@@ -156,9 +118,31 @@ def follow_shared(
     Raises
     ------
     OrbitStopped
-        No film to begin with, or a step that fails even when cut to 1/256.
+        No film to begin with, or a step that fails even when cut to 1/256; on tilting pads on more
+        cells around, too, which each path tells as `cells_around`.
     """
-    march = _March(bearings, options, time, speed, lying, control, temperature)
+    while True:
+        march = _March(bearings, options, time, speed, lying, control, temperature)
+        try:
+            return _followed(march, rests)
+        except OrbitStopped:
+            finer = [_on_more_cells(*one) for one in zip(bearings, options)]
+            if finer == [*options]:
+                raise
+            options = finer
+
+
+def _on_more_cells(bearing: JournalGeometry, film: Film) -> Film:
+    """A film on twice the cells around, if ends of pads may have met the shaft between these."""
+    around, across = film.cells
+    if not Bore.of(bearing).pads or 2 * around > _MOST_AROUND:
+        return film
+    return replace(film, grid=(2 * around, across))
+
+
+def _followed(march: _March, rests: bool) -> SharedPath:
+    """The path of a march."""
+    time = march.time
     march.begins()
     if rests:
         march.rests()
@@ -209,7 +193,10 @@ class _March:
         most = size.max(axis=0) / area
         self.films = {n: self._films(bearings, options, most, n) for n in LEVELS}
         first = self.films[LEVELS[0]]
-        self.sides = [_side(k, first, lying, temperature[k]) for k in range(2)]
+        self.gaps = [gap_of_pads(m, lying.force[:1, k], speed[:1]) for k, m in enumerate(first)]
+        self.pads = {n: list(map(pads_beside, both, self.gaps)) for n, both in self.films.items()}
+        flat = self.pads[LEVELS[0]]
+        self.sides = [side_of(k, first, lying, temperature[k], flat) for k in range(2)]
         felt = [side.felt[:2, :COORDINATES] for side in self.sides]
         load = sum(lying.force[:, k] @ felt[k] for k in range(2))
         many = self.sides[0].lies.shape[1]
@@ -220,7 +207,7 @@ class _March:
             np.array(load), now, before, new, step, missing, system=np.zeros((many, many + 1)),
             slip=slip, held=np.ones((many - SHAFT) // 2), steps=np.zeros(1), told=np.zeros(2),
         )  # fmt: skip
-        self.before: list[tuple[Array, Array]] = []
+        self.before: list[tuple[NDArray[Any], NDArray[Any]]] = []
 
     def _films(
         self, bearings: Sequence[JournalGeometry], options: Sequence[Film], most: Array, level: int
@@ -256,12 +243,60 @@ class _March:
             for k in range(self.shared.held.size):
                 self._follows(k)
             both = zip(self.sides, models)
-            if min(m.least(s.place[None], s.bend[:1])[0] for s, m in both) > _ROOM:
+            room = min(m.least(s.place[None], s.bend[:1])[0] for s, m in both)
+            last = share == _SHARES[-1]
+            if (room > _ROOM or last) and self._pads_hold(last):
                 break
-        for k, (side, model) in enumerate(zip(self.sides, models)):
-            _held(side, model, self.lying.force[:1, k], self.speed[:1], self.control)
+        for k, side in enumerate(self.sides):
+            self._held(k)
             side.past[:4], side.past[4:6], side.past[6:] = side.place, side.bend[0], side.bend[0]
         self.shared.before[:] = self.shared.at
+
+    def _pads_hold(self, last: bool) -> bool:
+        """Whether pads that tilt have a film at the first time, on which they are put.
+
+        Raises
+        ------
+        loadflow.errors.InputError, loadflow.errors.SolverError
+            They have none at the `last` place that is tried.
+        """
+        for k, (side, model, gap) in enumerate(zip(self.sides, self.films[LEVELS[0]], self.gaps)):
+            if gap is None:
+                continue
+            unit = model.bearing.clearance / model.bearing.radius
+            line = Line(tilt=unit * side.place[None, 2:], bend=self.lying.bend[:1, k])
+            given = self.lying.force[:1, k], self.speed[:1], line, self.control
+            try:
+                first, _ = first_on_pads(
+                    model.bearing, model.options.isothermal(), *given, side.place[:2]
+                )
+            except (InputError, SolverError):  # the former where they meet the shaft
+                if last:
+                    raise
+                return False
+            side.pad_work.tilts[:], side.pad_work.on[:] = first.tilts, first.on
+        return True
+
+    def _held(self, k: int) -> None:
+        """The film at the first time, around a shaft that is held at its place."""
+        side, model, force = self.sides[k], self.films[LEVELS[0]][k], self.lying.force[:1, k]
+        work, limits = side.work, (self.control.tolerance, 4 * self.control.max_iterations)
+        line = np.concatenate([side.place[None, 2:], side.bend[:1]], axis=1)
+        work.bend[:], work.u[:], work.kept[0] = side.bend[0], model.cold(), 0.0
+        given = side.place, 0, 0, _NOW, model.loads(force), line, self.speed[:1] * side.thin[0]
+        rows, still = side.rows[:1], (COLD, standing_states(1))
+        if self.gaps[k] is None:
+            solve(side.film, work, *given, *limits, np.inf, rows, np.zeros((2, 0, 0)), *still)
+        else:
+            pads = side.pads, side.pad_work
+            solve_on_pads(
+                side.film, work, *pads, *given, *limits, np.inf, rows, side.tilts[:1], *still
+            )
+        if not side.rows[0, at.CONVERGED] > 0.0:
+            missed = tuple(side.rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
+            ratio = float(np.hypot(*side.place[:2]))
+            raise no_start(force[0], float(self.speed[0]), ratio, missed)
+        work.kept[0] = 0.0
 
     def rests(self) -> None:
         """Let both films come to rest under the first loads.
@@ -276,7 +311,8 @@ class _March:
         sides = [
             side._replace(
                 given=first(side.given), bend=first(side.bend), states=first(side.states),
-                rows=first(side.rows), warmth=side.warmth._replace(on=False),
+                rows=first(side.rows), tilts=first(side.tilts),
+                warmth=side.warmth._replace(on=False),
             )
             for side in self.sides
         ]  # fmt: skip
@@ -291,7 +327,7 @@ class _March:
             given = self.lying.force[0, k], self.speed[0], float(np.hypot(*sides[k].place[:2]))
             raise no_start(*given, (float(shared.told[0]), 0.0, int(shared.told[1])))
         for side, rested in zip(self.sides, sides):
-            side.rows[0] = rested.rows[-1]
+            side.rows[0], side.tilts[0] = rested.rows[-1], rested.tilts[-1]
 
     def _follows(self, k: int) -> None:
         """Turn the shell of a film with the shaft, at the first time: elastic, or slid so far."""
@@ -309,7 +345,7 @@ class _March:
         for k, level in enumerate(levels):
             if level != self.levels[k]:
                 self._take(k, level)
-        kept = [*self.shared[1:3], self.shared.steps]
+        kept: list[NDArray[Any]] = [*self.shared[1:3], self.shared.steps]
         for side in self.sides:
             kept += [
                 side.place,
@@ -318,6 +354,8 @@ class _March:
                 side.work.last,
                 side.work.before,
                 side.slipped,
+                side.pad_work.tilts,
+                side.pad_work.on,
             ]
         self.before = [(values, values.copy()) for values in kept]
         first, second = self.sides
@@ -341,7 +379,12 @@ class _March:
             moved = unknowns_on(getattr(here.work, name), here, there)
             getattr(there.work, name)[:] = moved
         there.work.kept[0] = 0.0
-        self.sides[k] = self.sides[k]._replace(film=there.film, work=there.work)
+        pads, pad_work = self.pads[level][k]
+        before = self.sides[k].pad_work
+        pad_work.tilts[:], pad_work.on[:] = before.tilts, before.on
+        self.sides[k] = self.sides[k]._replace(
+            film=there.film, work=there.work, pads=pads, pad_work=pad_work
+        )
         self.levels[k] = level
 
     def unresolved(self, k: int, begin: int, end: int, by: int) -> bool:
@@ -374,77 +417,15 @@ class _March:
             force = self.lying.force[:, k]
             if model.options.contact is not None:
                 values["contact_share"] = contact_share(values["contact_force"], force)
+            if side.pad_work.on.size:
+                values["pad_tilt"] = side.tilts * model.bearing.relative_clearance
             values = cooled(side.warmth, side.states, values)
             given = self.time, force, self.speed, model.bearing.clearance
-            paths.append(orbit_dataset(values, *given))
+            around = model.options.cells[0]
+            paths.append(orbit_dataset(values, *given).assign_attrs(cells_around=around))
         return SharedPath(
             position=both(at.X, at.Y) * lengths[:, :1],
             tilt=both(at.TILT_X, at.TILT_Y) * (lengths[:, :1] / lengths[:, 1:]),
             moment=both(at.MOMENT_X, at.MOMENT_Y) * lengths[:, 1:],
             paths=paths,
         )
-
-
-def _side(number: int, models: Sequence[ComposedFilm], lying: Lying, temperature: float) -> Side:
-    """One film, in the units of the loops; coordinates are the positions in clearances."""
-    model, count = models[number], len(lying.tilt)
-    turn = model.bearing.radius / model.bearing.clearance
-    seated = 0 if lying.seats is None else len(models)
-    given, lies = np.zeros((count, 4)), np.zeros((4, SHAFT + 2 * seated))
-    given[:, 2:] = lying.tilt[:, number] * turn
-    lies[[0, 1], [2 * number, 2 * number + 1]] = 1.0
-    for k, other in enumerate(models):
-        places, moments = (slice(first + 2 * k, first + 2 * k + 2) for first in (0, COORDINATES))
-        lies[2:, places] = turn * other.bearing.clearance * lying.by_position[number, :, k]
-        lies[2:, moments] = turn * other.bearing.radius * lying.by_moment[number, :, k]
-    felt = lies[:, :SHAFT] * model.bearing.clearance / models[0].bearing.clearance
-    felt[:, COORDINATES:] = 0.0
-    if lying.seats is not None:
-        held = SHAFT + 2 * number
-        give = _give(
-            model.bearing, float(lying.seats.stiffness[number]), lying.seats.slip[:, number]
-        )
-        lies[[2, 3], [held, held + 1]] = -turn * model.bearing.radius * give
-    if not lying.felt[number]:
-        felt[2:] = 0.0
-    own = COORDINATES + 2 * number
-    felt[[2, 3], [own, own + 1]] = 1.0
-    film, contact = model.film, model.options.contact
-    load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
-    if film.rough.size > 0.0 or film.give > 0.0:
-        load = 0.0
-    rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
-    warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
-    return Side(
-        film=film, work=model.work, lies=lies, slipped=np.zeros(4), felt=felt, given=given,
-        bend=np.array(model.lines(count)[:, 2:]),
-        stop=np.array([lying.touching[number] / model.bearing.clearance, load]),
-        arcs=Bore.of(model.bearing).arcs(),
-        place=np.zeros(4), new=np.zeros(4), past=np.zeros(8), rows=np.zeros((count, model.columns)),
-        thin=np.array([states[0, THIN], 1.0]), warmth=warmth, states=states,
-    )  # fmt: skip
-
-
-def _give(bearing: JournalGeometry, stiffness: float, slip: Array) -> float:
-    """Turn of a seat by moment, rad/(N m); one that slides gives way a little before it does."""
-    most = float(slip.max())
-    if np.isfinite(stiffness) or np.isinf(most):
-        return 1.0 / stiffness
-    # one that has no load at all holds nothing
-    return _STICKS * 2.0 * bearing.clearance / bearing.width / max(most, 1.0)
-
-
-def _held(side: Side, model: ComposedFilm, force: Array, speed: Array, control: Limits) -> None:
-    """The film at the first time, around a shaft that is held at its place."""
-    work, most = side.work, 4 * control.max_iterations
-    line = np.concatenate([side.place[None, 2:], side.bend[:1]], axis=1)
-    work.bend[:], work.u[:], work.kept[0] = side.bend[0], model.cold(), 0.0
-    solve(
-        side.film, work, side.place, 0, 0, _NOW, model.loads(force), line, speed * side.thin[0],
-        control.tolerance, most, np.inf, side.rows[:1], np.zeros((2, 0, 0)), COLD,
-        standing_states(1),
-    )  # fmt: skip
-    if not side.rows[0, at.CONVERGED] > 0.0:
-        missed = tuple(side.rows[0, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
-        raise no_start(force[0], speed[0], float(np.hypot(*side.place[:2])), missed)
-    work.kept[0] = 0.0

@@ -207,9 +207,8 @@ CLEARANCES = Effect(
     smaller=20.0,  # 13 at 15 MW, whose seed of 60 s swings less than is estimated
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
-    'journal.tilt, motion = "transient" and rung = "reduced", around bores without tilting pads; '
-    "a thrust collar beside them must be self_aligning; a shaft that stands at times needs "
-    "journal.contact",
+    'journal.tilt, motion = "transient" and rung = "reduced"; a thrust collar beside them must be '
+    "self_aligning; a shaft that stands at times needs journal.contact",
     concerns=lambda scene: (
         scene.wants("journal")
         and any(one.beam is not None for _, one, _ in floating(scene.shaft, scene.journal))
