@@ -20,8 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.film.cell_error import warm_errors
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.grid_bounds import BOUNDED
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.rows import answered_rows, times_rows
 from loadflow.numerics.fields import require
@@ -138,7 +140,7 @@ class _Warmth:
     def said_of(self, film: Columns, heat: Heat) -> Columns:
         """The film with its temperatures."""
         entering = heat.entering(film["side_flow"], self.temperature)
-        return film | {
+        return _with_bounds(film, heat, self.temperature) | {
             "temperature": np.where(film["converged"], self.temperature, np.nan),
             "outlet_temperature": 2.0 * self.temperature - entering,
             "inlet_temperature": entering,
@@ -146,6 +148,24 @@ class _Warmth:
             "heat_residual": self.residual,
             "heat_iterations": np.full(self.residual.shape, self.iterations),
         }
+
+
+def _with_bounds(film: Columns, heat: Heat, temperature: Array) -> Columns:
+    """A film whose bounds of what cells do count its temperature, K: what less oil carries less.
+
+    The friction's own error needs no more: a film that rubs less warms less.
+    """
+    if "relative_grid_error" not in film:
+        return film
+    bounds, power = film["relative_grid_error"], film["friction_power"]
+    less = film["side_flow"] / (1.0 + bounds[:, BOUNDED.index("side_flow")])
+    rise = heat.temperature(power, less, temperature) - temperature
+    steep = heat.liquid.steepness(temperature)
+    rise = rise / (1.0 + steep * np.maximum(temperature - heat.coldest, 0.0))
+    narrow = film["minimum_film"] * film["eccentricity_ratio"]
+    narrow = narrow / np.maximum(np.hypot(*film["eccentricity"].T), 1e-300)
+    known = np.abs(steep * rise), film["eccentricity_ratio"], narrow
+    return film | {"relative_grid_error": warm_errors(bounds, *known)}
 
 
 @dataclass
