@@ -47,6 +47,9 @@ _FLATTEST = -0.05
 the film is, it falls by far less than one.
 """
 
+_STEEPEST = 1e-3
+"""Share of what may be left of a balance, K, in which no balance is that does not jump."""
+
 _AHEAD = 10.0
 """Where a film warms so much that its balance lies this many times farther than the temperature at
 which it carries the load no more, none is looked for between them.
@@ -232,6 +235,7 @@ class _Balance:
     def solve(self, tolerance: float, max_iterations: int, start: Array | None = None) -> _Warmth:
         """Find the temperatures by secants between brackets; a film that fails is too thin."""
         heat, count = self.heat, 1 if self.share is not None else self.speed.size
+        shortest = max(1e-12 * HOTTEST, _STEEPEST * tolerance)
         cold = heat.coldest
         low, high = np.full(count, cold), np.full(count, HOTTEST)
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
@@ -276,13 +280,13 @@ class _Balance:
             warm[active] = np.where(balanced, here, np.where(inside, step, aside))
             width = high[active] - low[active]
             hopeless = np.isfinite(fails[active]) & (reach[active] > _AHEAD * width)
-            active = active[(residual[active] > tolerance) & (width > 1e-12 * HOTTEST) & ~hopeless]
+            active = active[(residual[active] > tolerance) & (width > shortest) & ~hopeless]
         shape = self.speed.shape
         fails = np.where((reach > _AHEAD * (high - low)) & (residual > tolerance), fails, np.inf)
         warm, residual = (
             np.where(np.isfinite(fails), *both) for both in ((low, warm), (excess_low, residual))
         )
-        jumps = (high - low <= 1e-12 * HOTTEST) & (residual <= _JUMP)
+        jumps = (high - low <= shortest) & (residual <= _JUMP)
         return _Warmth(
             np.broadcast_to(warm, shape).copy(),
             np.broadcast_to(residual, shape).copy(),

@@ -17,6 +17,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.newton import Solution, solve_film
+from loadflow.journal.solvers.search import Search
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import (
     WarmFilm,
@@ -55,6 +56,7 @@ def warm_rows(
     rows = []
     last: tuple[Solution, Warmth] | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
+        search = Search()
 
         def found_on(
             statics: Statics,
@@ -62,9 +64,11 @@ def warm_rows(
             last: tuple[Solution, Warmth] | None,
             index: int = index,
             omega: float = omega,
+            search: Search = search,
         ) -> WarmFilm:
             def film_of(before: Solution | None) -> Solution:
-                return statics.solve(index, loads[index], omega, before, each)
+                effort = search.effort(statics.film, each.max_iterations)
+                return statics.solve(index, loads[index], omega, before, each, effort=effort)
 
             return coupled(equation, film_of, last, equation.alone)
 
