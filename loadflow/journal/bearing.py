@@ -21,6 +21,7 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.models.model import Steps, model_of
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped, start_rows, starts_of
+from loadflow.journal.solvers.search import searches
 from loadflow.journal.thermal import TOLERANCE, at_temperatures, shares, warm_film
 from loadflow.journal.validity import warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
@@ -136,7 +137,10 @@ class JournalBearing(JournalGeometry):
         loads, speeds, shape = operating_points(force, speed, "force")
         line = Line.of(shape, whirl, moment=moment, tilt=tilt, bend=bend)
         model, starts = model_of("at_rest", film, self, line), starts_of(self, speeds.size, near)
-        line = replace(line, near=starts)
+        known = None
+        if film.heat is not None and not film.heat.over_area:
+            known = searches(speeds.size, together=weights is not None)
+        line = replace(line, near=starts, searches=known)
         require(heat_tolerance > 0, "heat_tolerance", heat_tolerance, "> 0")
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")

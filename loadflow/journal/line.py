@@ -30,6 +30,8 @@ class Line:
     near : array (n, 2 + pads) or None
         Where shafts on tilting pads are looked for first: eccentricity, clearances, and rotation of
         the pads over ψ; NaN where nothing is known.
+    searches : array (n,) of `loadflow.journal.solvers.search.Search` or None
+        What was found and spent before where the same loads are asked again, as at temperatures.
     """
 
     moment: Array | None = None
@@ -37,6 +39,7 @@ class Line:
     bend: Array | None = None
     whirl: float = 0.0
     near: Array | None = None
+    searches: NDArray[np.object_] | None = None
 
     @classmethod
     def of(cls, shape: tuple[int, ...], whirl: float = 0.0, **given: ArrayLike | None) -> Line:
@@ -59,7 +62,8 @@ class Line:
             None if rows is None else rows[places]
             for rows in (self.moment, self.tilt, self.bend, self.near)
         )
-        return Line(moment, tilt, bend, self.whirl, near)
+        searches = None if self.searches is None else self.searches[places]
+        return Line(moment, tilt, bend, self.whirl, near, searches)
 
     def start(self, index: int) -> Array | None:
         """Where the shaft under load number `index` is looked for first, if that is known."""

@@ -20,8 +20,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
+from loadflow.journal.film.cell_error import warm_errors
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.grid_bounds import BOUNDED
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.rows import answered_rows, times_rows
 from loadflow.numerics.fields import require
@@ -44,6 +46,9 @@ _FLATTEST = -0.05
 """Slope of a balance, K/K, up to which a secant is followed; where asperities rub more the warmer
 the film is, it falls by far less than one.
 """
+
+_STEEPEST = 1e-3
+"""Share of what may be left of a balance, K, in which no balance is that does not jump."""
 
 _AHEAD = 10.0
 """Where a film warms so much that its balance lies this many times farther than the temperature at
@@ -138,7 +143,7 @@ class _Warmth:
     def said_of(self, film: Columns, heat: Heat) -> Columns:
         """The film with its temperatures."""
         entering = heat.entering(film["side_flow"], self.temperature)
-        return film | {
+        return _with_bounds(film, heat, self.temperature) | {
             "temperature": np.where(film["converged"], self.temperature, np.nan),
             "outlet_temperature": 2.0 * self.temperature - entering,
             "inlet_temperature": entering,
@@ -146,6 +151,24 @@ class _Warmth:
             "heat_residual": self.residual,
             "heat_iterations": np.full(self.residual.shape, self.iterations),
         }
+
+
+def _with_bounds(film: Columns, heat: Heat, temperature: Array) -> Columns:
+    """A film whose bounds of what cells do count its temperature, K: what less oil carries less.
+
+    The friction's own error needs no more: a film that rubs less warms less.
+    """
+    if "relative_grid_error" not in film:
+        return film
+    bounds, power = film["relative_grid_error"], film["friction_power"]
+    less = film["side_flow"] / (1.0 + bounds[:, BOUNDED.index("side_flow")])
+    rise = heat.temperature(power, less, temperature) - temperature
+    steep = heat.liquid.steepness(temperature)
+    rise = rise / (1.0 + steep * np.maximum(temperature - heat.coldest, 0.0))
+    narrow = film["minimum_film"] * film["eccentricity_ratio"]
+    narrow = narrow / np.maximum(np.hypot(*film["eccentricity"].T), 1e-300)
+    known = np.abs(steep * rise), film["eccentricity_ratio"], narrow
+    return film | {"relative_grid_error": warm_errors(bounds, *known)}
 
 
 @dataclass
@@ -212,6 +235,7 @@ class _Balance:
     def solve(self, tolerance: float, max_iterations: int, start: Array | None = None) -> _Warmth:
         """Find the temperatures by secants between brackets; a film that fails is too thin."""
         heat, count = self.heat, 1 if self.share is not None else self.speed.size
+        shortest = max(1e-12 * HOTTEST, _STEEPEST * tolerance)
         cold = heat.coldest
         low, high = np.full(count, cold), np.full(count, HOTTEST)
         warm, residual = np.full(count, heat.inlet_temperature), np.full(count, np.inf)
@@ -256,13 +280,13 @@ class _Balance:
             warm[active] = np.where(balanced, here, np.where(inside, step, aside))
             width = high[active] - low[active]
             hopeless = np.isfinite(fails[active]) & (reach[active] > _AHEAD * width)
-            active = active[(residual[active] > tolerance) & (width > 1e-12 * HOTTEST) & ~hopeless]
+            active = active[(residual[active] > tolerance) & (width > shortest) & ~hopeless]
         shape = self.speed.shape
         fails = np.where((reach > _AHEAD * (high - low)) & (residual > tolerance), fails, np.inf)
         warm, residual = (
             np.where(np.isfinite(fails), *both) for both in ((low, warm), (excess_low, residual))
         )
-        jumps = (high - low <= 1e-12 * HOTTEST) & (residual <= _JUMP)
+        jumps = (high - low <= shortest) & (residual <= _JUMP)
         return _Warmth(
             np.broadcast_to(warm, shape).copy(),
             np.broadcast_to(residual, shape).copy(),

@@ -24,6 +24,7 @@ from loadflow.journal.growing_orbit import growing_orbit
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
+from loadflow.journal.solvers.search import searches
 from loadflow.journal.thermal import at_temperatures, check_scalable, grown_by, warm_film
 from loadflow.numerics.convergence import Limits
 from loadflow.quantities import FILM
@@ -140,10 +141,12 @@ def series_temperature(
     some = np.roll(some, -int(severity.argmin()))  # each starts from the one before, so mildly
     limits = Limits(1e-10, 60, strict=False, refine=False)
 
+    again = replace(line, searches=searches(speed.size, together=True))
+
     def mean(
         some: NDArray[np.int64], limits: Limits, start: float | None = None, about: bool = False
     ) -> dict[str, Any]:
-        given = model, bearing, film, force[some], speed[some], line.at(some), limits
+        given = model, bearing, film, force[some], speed[some], again.at(some), limits
         return _of_mean(*given, start, ABOUT if about else BALANCED)
 
     start, worth_asking = None, some.size <= 2 * FEW
@@ -160,6 +163,7 @@ def series_temperature(
         severity = np.hypot(*force[some].T) / np.maximum(np.abs(speed[some]), 1e-300)
         some = np.sort(some[np.argsort(severity, kind="stable")[:MILDEST]])
         limits = replace(limits, refine=True)
+        again = replace(line, searches=searches(speed.size, together=True))
         found = mean(some, limits)
     converged = found["converged"]
     if not converged.any():

@@ -12,19 +12,22 @@ from loadflow.journal import (
     ConicalPair,
     Contact,
     Film,
+    FilmHeat,
     GasMixture,
     Groove,
     Guembel,
+    Heat,
     JournalBearing,
     Lobes,
     LocalShell,
     Lubricant,
+    MassConserving,
     Pivot,
     Reynolds,
     Supply,
     ThrustBearing,
 )
-from loadflow.tribology import AsperityContact
+from loadflow.tribology import AsperityContact, ExponentialOil
 
 OIL = Lubricant(0.03)
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -50,6 +53,42 @@ def test_one_film_bounds_the_error_of_its_cells(case):
         assert error < bound, name
     assert own.grid_error.minimum_film < 0.1 * own.minimum_film
     assert own.resolved
+
+
+THINNING = ExponentialOil(reference_viscosity=0.05, constant_steepness=0.03)
+OVER_AREA = {"heat": FilmHeat(THINNING, carry_over=0.5), "cavitation": MassConserving()}
+WARM = {
+    "little oil leaves": ((800.0, 100.0), "grid", OVER_AREA),
+    "loaded": (LOAD, "grid", OVER_AREA),
+    "on few points across": ((800.0, 100.0), "reduced", OVER_AREA),
+    "one temperature": ((800.0, 100.0), "grid", {"heat": Heat(THINNING)}),
+}
+
+
+@pytest.mark.parametrize("case", WARM)
+def test_a_warm_film_bounds_what_its_cells_do_to_its_temperature(case):
+    """Where little oil leaves, the friction is a fifth off: the film is 13 K too cold."""
+    load, rung, heat = WARM[case]
+    given = {"edge_pressure": 1e5, "inlet": None, "rung": rung, **heat}
+    own, fine = (
+        BEARING.equilibrium(load, 20.0, Film(grid=cells, **given)) for cells in ((48, 8), (144, 24))
+    )
+    for name, bound in vars(own.grid_error).items():
+        error = abs(getattr(own, name) - getattr(fine, name))
+        assert error < bound, name
+    assert own.grid_error.friction_power < 0.5 * own.friction_power
+
+
+@pytest.mark.filterwarnings("ignore:the cells do not resolve")
+def test_a_warm_film_at_a_given_position_bounds_its_force():
+    given = {"edge_pressure": 1e5, "inlet": None, **OVER_AREA}
+    own, fine = (
+        BEARING.pressure((3e-5, 0.0), 20.0, Film(grid=cells, **given))
+        for cells in ((48, 8), (144, 24))
+    )
+    error = np.hypot(*(own.force - fine.force))
+    assert 0.05 * np.hypot(*own.force) < error < own.grid_error.force
+    assert abs(own.friction_power - fine.friction_power) < own.grid_error.friction_power
 
 
 def test_bounds_fall_with_the_square_of_the_cells():
@@ -188,7 +227,7 @@ def test_bounds_of_paths_and_of_rough_films_hold_in_95_of_100_draws(family):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("family", ["cylinder", "shaped", "supply", "line", "shell"])
+@pytest.mark.parametrize("family", ["cylinder", "shaped", "supply", "line", "shell", "heat"])
 def test_bounds_hold_in_95_of_100_draws(family):
     row = run(family, range(7000, 7100))
     held = {name: part["held"] for name, part in row.items() if isinstance(part, dict)}

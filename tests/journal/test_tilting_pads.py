@@ -22,6 +22,7 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.pad_curve import pad_curve
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.pad_estimate import on_pads
 from loadflow.journal.solvers.pads import solve_with_pads
 from loadflow.journal.solvers.statics import Statics
@@ -81,7 +82,10 @@ def test_both_ways_lead_to_one_film() -> None:
     limits = LIMITS.tolerance, LIMITS.max_iterations
     generalised = np.append(force, np.zeros(5))
     away = film.gap.lifted(np.append([0.87, -0.1], np.zeros(5)), SPEED)
-    steps = solve_with_pads(film.film, film.gap, generalised, away, np.arange(2), *limits)
+    effort = Effort.of(film.film, LIMITS.max_iterations)
+    asked = film.film, film.gap, generalised, away, np.arange(2), *limits
+    steps = solve_with_pads(*asked, effort)
+    assert steps.iterations == effort.spent
     assert steps.converged
     np.testing.assert_allclose(steps.position, once.position, atol=1e-8)
     pads = film.gap.pads

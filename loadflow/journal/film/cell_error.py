@@ -190,6 +190,28 @@ def resting_errors(left: Left, balance: Balance) -> Array:
     return out
 
 
+def warm_errors(relative: Array, thinning: Array | float, ratio: Array, narrow: Array) -> Array:
+    """Bounds (…, 7) of films whose viscosity the cells leave unknown by a share, too.
+
+    Parameters
+    ----------
+    relative : array (…, 7)
+        Bounds of the films at the viscosity that they have.
+    thinning : array (…) or float
+        Bound of what the cells do to the viscosity by way of the temperature, as a share.
+    ratio, narrow : array (…)
+        Eccentricity ratio and narrowest gap, clearances, of films under a load: they take the place
+        at which a load changed by this share has them in oil of one viscosity. At a given place
+        `narrow` is infinite, and the load changes by the share.
+    """
+    share, held = np.asarray(thinning, dtype=float), np.isinf(narrow)
+    moved = np.where(held, 0.0, share)
+    closer = moved * np.minimum(1.0, np.asarray(ratio) / np.maximum(narrow, 1e-300))
+    more = (np.where(held, share, 0.0), moved, _TURN * moved, closer)
+    peak = np.where(held, share, _PEAK * share)
+    return np.asarray(relative + np.stack([*more, peak, share, share], axis=-1))
+
+
 def pressure_error(
     film: DiscreteFilm,
     width: Array,

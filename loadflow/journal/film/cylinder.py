@@ -19,6 +19,7 @@ from scipy.sparse import csr_array, diags_array, kron, tril
 Array = NDArray[np.float64]
 
 ACROSS, _ALONG = 3, 2  # degrees of the elements through the wall and along it
+_LOW, _BETWEEN = 8, 32  # orders from which on they lie between others, and how many these are
 _COARSER = 2.0  # ratio of the lengths of neighbouring elements through the wall
 
 
@@ -47,15 +48,30 @@ def bore_compliance(
     Returns
     -------
     array (h, nz, nz)
-        Mean displacement outward of each ring over a pressure cos nθ on each ring, m/Pa.
+        Mean displacement outward of each ring over a pressure cos nθ on each ring, m/Pa. Where
+        there are many, those of high orders, which n enters as a real number and smoothly, lie on
+        a polynomial in log n through some (Chebyshev's points): to 1e-6 of each.
     """
-    words = (inner, outer, modulus, poisson_ratio)
-    return _cached(tuple(orders.tolist()), tuple(z_edges.tolist()), *words).copy()
+    rings, words = tuple(z_edges.tolist()), (inner, outer, modulus, poisson_ratio)
+    many = orders >= _LOW
+    if many.sum() <= _BETWEEN:
+        return _cached(tuple(orders.tolist()), rings, *words).copy()
+    found = np.empty((orders.size, len(rings) - 1, len(rings) - 1))
+    found[~many] = _cached(tuple(orders[~many].tolist()), rings, *words)
+    ends = np.log([_LOW, orders.max()])
+    nodes = np.polynomial.chebyshev.chebpts1(_BETWEEN)
+    at = np.exp(ends[0] + 0.5 * (1.0 + nodes) * (ends[1] - ends[0]))
+    values = at[:, None, None] * _cached(tuple(at.tolist()), rings, *words)
+    places = 2.0 * (np.log(orders[many]) - ends[0]) / (ends[1] - ends[0]) - 1.0
+    series, wanted = (np.polynomial.chebyshev.chebvander(x, _BETWEEN - 1) for x in (nodes, places))
+    shares = wanted @ np.linalg.inv(series) / orders[many, None]
+    found[many] = np.tensordot(shares, values, axes=1)
+    return found
 
 
 @lru_cache(maxsize=8)
 def _cached(
-    orders: tuple[int, ...],
+    orders: tuple[float, ...],
     z_edges: tuple[float, ...],
     inner: float,
     outer: float,

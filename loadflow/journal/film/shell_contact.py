@@ -50,6 +50,8 @@ class ShellContact(YieldingNodeLoad):
         self._free = ~self._held.ravel()
         self._unit_growth = 0.0
         self._touching = np.zeros(0, dtype=np.int64)
+        size = int(np.prod(mesh.shape))
+        self._known, self._by_cells = np.zeros(size, dtype=bool), np.empty((size, size))
         self.by_place = np.zeros((self._modes.reach.shape[0], *mesh.shape))
 
     def settle(self, pressure: Array, position: Array, unit: float) -> Array:
@@ -118,16 +120,26 @@ class ShellContact(YieldingNodeLoad):
         """Cells that touch, change of their pressure by all growth, and of all growth by theirs."""
         nodes = np.flatnonzero(slope)
         self._touching, number = np.unique(self._cells[nodes], return_inverse=True)
-        count, size = self._touching.size, int(np.prod(self._shape))
+        count = self._touching.size
         if not count:
             return
         by_nodes: Any = _sums(slope[nodes], number, count) @ self._gap_of_cells[nodes]
         self._by_growth = by_nodes.toarray()
-        one = np.zeros((count, size))
-        one[np.arange(count), self._touching] = 1.0
-        grown = self._compliance.growth(one.reshape(count, *self._shape))
-        self._grown = self._unit_growth * grown.reshape(count, size)
+        self._grown = self._unit_growth * self._influence(self._touching)
         self._matrix = np.eye(count) - self._by_growth @ self._grown.T
+
+    def _influence(self, cells: NDArray[np.int64]) -> Array:
+        """Growth of all cells by the pressure on each of some, (count, size), m/Pa.
+
+        It is that of the shell alone, and kept: cells touch again and again.
+        """
+        new = cells[~self._known[cells]]
+        if new.size:
+            one = np.zeros((new.size, self._known.size))
+            one[np.arange(new.size), new] = 1.0
+            grown = self._compliance.growth(one.reshape(new.size, *self._shape))
+            self._by_cells[new], self._known[new] = grown.reshape(one.shape), True
+        return self._by_cells[cells]
 
     def _solved(self, growth: Array) -> Array:
         """Growth (l, nx, nz) of a shell that asperities press, by that of one they do not."""

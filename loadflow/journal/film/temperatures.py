@@ -30,6 +30,7 @@ Numbers = NDArray[np.int64]
 _STEPS = 60  # Newton steps of the temperatures
 _EXACT = 1e-11  # of the largest temperature, a change that is none
 _BURNT = 700.0  # K, beyond which no temperature is looked for
+_UPWIND = 1.5  # of the first-order change of the friction by upwind temperatures, what bounds it
 
 
 @dataclass(frozen=True)
@@ -77,6 +78,17 @@ class Warmth:
         return abs(missing) / max(self.friction, 1e-300)
 
 
+@dataclass(frozen=True)
+class _Balanced:
+    """Unknowns in balance with some flows and heat, and the matrix of the last Newton step."""
+
+    t: Array
+    flows: Flows
+    sheared: Array
+    pumped: Array
+    matrix: csc_matrix
+
+
 class Temperatures(ABC):
     """Temperatures of the cells and grooves of a film.
 
@@ -115,6 +127,7 @@ class Temperatures(ABC):
         clearance = film.relative_clearance * film.radius
         self._surfaces = Surfaces.of(heat, np.full(self.size, clearance))
         self._expansion: RingExpansion | None = None
+        self._balanced: _Balanced | None = None
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -182,6 +195,7 @@ class Temperatures(ABC):
         heat = self.heat
         self._surfaces = Surfaces.of(heat, gaps)
         volumes, size = self.volumes, self.size
+        self._balanced = None
         if not (sheared.any() or flows.flow.any() or heat.shell_transfer or heat.shaft_transfer):
             return self._told(self._as_supplied(), flows, sheared, pumped, 0.0)
         matrix, rhs = HeatBalance(heat, volumes, self._surfaces, flows).linear()
@@ -209,9 +223,53 @@ class Temperatures(ABC):
         else:
             raise SolverError(f"temperatures of the film: change {np.abs(step).max():.3g} K left")
         self._shaft, self._skew = float(t[volumes.shaft]), volumes.skew(t)
+        self._balanced = _Balanced(t, flows, sheared, pumped, matrix - slopes)
         return self._told(t, flows, sheared, pumped, residual)
 
+    def left_by_cells(self) -> float:
+        """Bound of what the cells do to the friction by way of the temperatures last balanced.
+
+        As a share of the friction. What flows over a face has the temperature of the cell that it
+        comes from; midway between those on both sides it is of second order. The heat that this
+        moves, through the balance of all cells, tells how far the temperatures are off, even where
+        little oil leaves and small errors add up.
+        """
+        last = self._balanced
+        if last is None:
+            return 0.0
+        volumes, size, t = self.volumes, self.size, last.t
+        moved = self.heat.volume_heat * last.flows.flow * self._over_faces(t, last.flows)
+        gained = np.zeros(volumes.unknowns)
+        leaves = (last.flows.source >= 0) & (last.flows.source < size)
+        enters = (last.flows.sink >= 0) & (last.flows.sink < size)
+        np.add.at(gained, last.flows.source[leaves], -moved[leaves])
+        np.add.at(gained, last.flows.sink[enters], moved[enters])
+        off = _solved(last.matrix, gained)[:size]
+        across = self._viscosity(t[:size], float(t[volumes.shaft]), volumes.skew(t))
+        friction = float((last.sheared * across.film.shear + last.pumped).sum())
+        changed = float(np.abs(last.sheared * across.by_mean * off).sum())
+        return _UPWIND * changed / max(friction, 1e-300)
+
     # --- inside ----------------------------------------------------------------------------------
+    def _over_faces(self, t: Array, flows: Flows) -> Array:
+        """How much warmer oil is on the face of each flow than in the cell that it leaves, K.
+
+        Half of the change to the next cell; over a bearing end and into a groove half of that from
+        the one before, across and around. Of what is no cell it is known.
+        """
+        size, source, sink = self.size, flows.source, flows.sink
+        every = np.append(t[: self.volumes.count], np.nan)
+        cell = (source >= 0) & (source < size)
+        between, drags = cell & (sink >= 0) & (sink < size), flows.drag != 0.0
+        half = np.where(between, 0.5 * (every[sink] - every[source]), 0.0)
+        for last, along in ((cell & (sink == FRESH), ~drags), (cell & (sink >= size), drags)):
+            some = between & along
+            weights = flows.sums(sink[some], flows.flow[some], size)
+            rise = flows.sums(sink[some], flows.flow[some] * half[some], size)
+            before = np.divide(rise, weights, out=np.zeros(size), where=weights > 0.0)
+            half[last] = before[source[last]]
+        return half
+
     def _at_state(self, state: Array) -> tuple[AcrossFilm, Array | None]:
         """Viscosity of the cells (nx, nz) at the temperatures `state`, and what they grow by, m."""
         temperature = self.cells_of(state)

@@ -31,7 +31,11 @@ from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
 from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
-from loadflow.journal.solvers.warm_rows import heat_columns, in_grown_clearances
+from loadflow.journal.solvers.warm_rows import (
+    heat_columns,
+    in_grown_clearances,
+    with_heat_bounds,
+)
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -183,6 +187,7 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
     where = {"angle": equation.columns.angle, "z": equation.whole_z * bearing.radius}
+    row = with_heat_bounds(row, equation, found, row["minimum_film"] / bearing.clearance)
     row |= warm | heat_columns(equation, found) | where
     if heat.growth is not None:
         row |= in_grown_clearances(row, bearing, equation, found)

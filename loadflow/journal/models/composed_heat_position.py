@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.journal.film.cell_error import warm_errors
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.film_model import Film
@@ -124,6 +125,7 @@ def pressure(
     films: list[tuple[Positions, Held]] = []
     rows: list[dict[str, Any]] = []
     left, wider = np.zeros(speed.size, bool), np.ones(speed.size)
+    thinning = np.zeros(speed.size)
     stiffness: dict[int, Array] = {}
     for n in range(speed.size):
         one = np.array([n])
@@ -142,6 +144,7 @@ def pressure(
             left[n] = found.converged and tried.left
         wider[n] = 1.0 + equation.mean_growth / bearing.clearance
         rows.append(heat_columns(equation, found) | {"converged": found.converged})
+        thinning[n] = equation.left_by_cells() if found.converged else 0.0
         if heat.stiffness == "settled" and tried and found.converged and found.warmth:
             model, place, row = tried.film.model, tried.film.place, tried.film.row
             last = found.solution, found.warmth
@@ -156,6 +159,8 @@ def pressure(
     held = [film for _, film in films]
     shown = [own.shown(held) for own, _ in films]
     answer, z = told(films[0][0], held, shown), places_across(shown[0])
+    known = thinning, answer["eccentricity_ratio"], np.full(speed.size, np.inf)
+    answer["relative_grid_error"] = warm_errors(answer["relative_grid_error"], *known)
     answer["eccentricity_ratio"] /= wider
     for n, settled in stiffness.items():
         answer["stiffness"][n] = settled

@@ -45,6 +45,8 @@ from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
+from loadflow.journal.solvers.load_stepping import TOUCHING
+from loadflow.journal.solvers.messages import touched
 from loadflow.journal.solvers.transient import OrbitStopped, stopped
 from loadflow.numerics.convergence import Limits
 
@@ -254,7 +256,8 @@ class March:
         """Say that there is no film at the first time."""
         drive, row = self.drive, self.rows[0]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
-        return no_start(drive.force[0], drive.speed[0], ratio, _found_in(row), self.work)
+        given = drive.force[0], drive.speed[0], ratio, _found_in(row)
+        return no_start(*given, self.work, self._touch(0))
 
     def stops(self, begin: int, end: int) -> OrbitStopped:
         """Say at which of the samples `begin` … `end` a path ends: the first without a film."""
@@ -262,7 +265,20 @@ class March:
         row = self.rows[last]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
         given = drive.time[last], drive.force[last], drive.speed[last], ratio
-        return stopped(*given, _found_in(row), work=self.work)
+        return stopped(*given, _found_in(row), self._touch(last), self.work)
+
+    def _touch(self, sample: int) -> str:
+        """That a smooth shaft has met a rigid bore at a sample, as on the grid; else nothing.
+
+        Of an aligned cylinder the cells alone say so: its film carries whatever comes.
+        """
+        place = self.rows[sample, [at.X, at.Y, at.TILT_X, at.TILT_Y]]
+        bend, film = self.lines[sample, 2:], self.model.film
+        round_ = not (place[2:].any() or bend.any() or film.ring.shaped)
+        if round_ or film.give > 0.0 or film.modes.on or film.rough.size > 0.0:
+            return ""
+        least = float(self.model.least(place[None], bend[None])[0])
+        return touched(least, self.drive.bearing.clearance) if least < TOUCHING else ""
 
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""

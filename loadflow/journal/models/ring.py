@@ -171,6 +171,7 @@ def no_start(
     ratio: float,
     found: tuple[float, float, float],
     work: float = 0.0,
+    why: str = "",
 ) -> OrbitStopped:
     """Say that an orbit has no equilibrium to start from.
 
@@ -182,6 +183,8 @@ def no_start(
         Residual, its rounding level, and Newton steps.
     work : float
         As of `OrbitStopped`.
+    why : str
+        What else is known.
     """
-    why = not_found(*found, ratio)
-    return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, why)}", work=work)
+    none = not_found(*found, ratio) + why
+    return OrbitStopped(f"orbit cannot start: {no_equilibrium(force, speed, none)}", work=work)

@@ -29,6 +29,8 @@ class Effort:
         Newton steps times cells of a film in a rigid bore, of about a microsecond each.
     spent : int
         Newton steps on all cells.
+    before : int
+        Of these, that earlier films of a `Search` have taken.
     kept : float
         Of what is left, that is kept for other cells.
 
@@ -41,12 +43,19 @@ class Effort:
 
     left: float
     spent: int = 0
+    before: int = 0
     kept: float = 0.0
 
     @classmethod
-    def of(cls, film: DiscreteFilm, most: int) -> Effort:
-        """That of a film of which one solution may take `most` steps."""
+    def of(cls, film: DiscreteFilm, max_iterations: int) -> Effort:
+        """That of a film of which one solution may take as many steps, or more by its law."""
+        most = film.newton_steps(max_iterations)
         return cls(most * max(_STEPS_OF_CELLS, _LEAST * _cost(film)))
+
+    @property
+    def taken(self) -> int:
+        """Newton steps of the film at hand."""
+        return self.spent - self.before
 
     @property
     def over(self) -> bool:

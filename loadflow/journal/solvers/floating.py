@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution, solve_film
 
 Array = NDArray[np.float64]
@@ -15,9 +16,12 @@ _FAR = 0.5  # share of the way to the bore at which the shaft is sought
 
 
 def floating_film(
-    film: DiscreteFilm, gap: BoreGap, force: Array, estimate: Array
+    film: DiscreteFilm, gap: BoreGap, force: Array, estimate: Array, effort: Effort
 ) -> Solution | None:
-    """The film around a shaft well off the bore; None where an end of it touches there."""
+    """The film around a shaft well off the bore; None where an end of it touches there.
+
+    Its steps are of the `effort`.
+    """
     load = force[:2]
     way, position = load / (float(np.hypot(*load)) or 1.0), estimate.copy()
     far = _FAR * min(gap.reach(way, 0.0), 1.0)
@@ -26,7 +30,9 @@ def floating_film(
         position = gap.lifted(position, film.speed)
     if not gap.narrowest(position) > 0.0:
         return None
-    return solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
+    found = solve_film(film, film.start(), position, np.zeros(gap.size), 1e-6, 30)
+    effort.take(film, found.iterations)
+    return found
 
 
 def carries_there(floating: Solution, film: DiscreteFilm, force: Array) -> bool:

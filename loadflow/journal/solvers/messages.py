@@ -60,11 +60,14 @@ def touches(film: DiscreteFilm, solution: Solution) -> str:
     if gap.axisymmetric or not has_touched(film, solution):
         return ""
     least, angle, _ = gap.closest(solution.position)
-    size = film.relative_clearance * film.radius
-    return (
-        f"; the shaft touches the bore, narrowest gap {least * size:.6g} m at "
-        f"{math.degrees(angle):.4g}° (radial clearance {size:.6g} m)"
-    )
+    at = f" at {math.degrees(angle):.4g}°"
+    return touched(least, film.relative_clearance * film.radius, at)
+
+
+def touched(least: float, clearance: float, at: str = "") -> str:
+    """Say that the shaft touches the bore, its narrowest gap `least` clearances, m, and where."""
+    narrowest = f"narrowest gap {least * clearance:.6g} m{at}"
+    return f"; the shaft touches the bore, {narrowest} (radial clearance {clearance:.6g} m)"
 
 
 def why_unsolved(

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.rows import following
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import (
     Motion,
     Solution,
@@ -35,7 +36,7 @@ _FLAT = 1e-3  # share of the same below which a film turns its pad the other way
 _STEEP = (0.97, 0.9, 0.75, 0.5, 0.25)  # shares of it at which pads are tried that lie flat
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
 _TOUCHING = 1e-9  # gap, in clearances, that is none
-_BUDGET = 5  # Newton steps of all films together, in multiples of those of a solution
+_KEPT = 0.5  # of the effort, for other searches
 _LEFT = 1e-4  # moment, in the same unit, above which a pad is not held
 _SHAFTS, _HALVINGS = 40, 12  # positions of the shaft, and how often a step to one is halved
 _LOOSE = 1e4  # condition of the stiffness above which a shaft may go aside
@@ -207,6 +208,7 @@ def solve_with_pads(
     shaft: Rows,
     tolerance: float,
     max_iterations: int,
+    effort: Effort,
 ) -> Solution:
     """As `solve_equilibrium`, the pads in balance at every position of the shaft.
 
@@ -222,6 +224,8 @@ def solve_with_pads(
         Degrees of freedom of the shaft that move.
     tolerance, max_iterations
         Of each film.
+    effort : Effort
+        What all films may take, but for a share that is kept.
 
     Returns
     -------
@@ -234,7 +238,9 @@ def solve_with_pads(
 
     def balanced(start: Solution) -> tuple[Solution, Rows]:
         some = gap.pads[_over_pivots(gap, start.position) < reach]
-        return _balanced(film, gap, start, some, tolerance, max_iterations)
+        found, held = _balanced(film, gap, start, some, tolerance, max_iterations)
+        effort.take(film, found.iterations)
+        return found, held
 
     def drop(pads: Rows, position: Array) -> None:
         """Leave those off that have come off, at the limit they would go on and off."""
@@ -243,21 +249,25 @@ def solve_with_pads(
         off = np.isin(gap.pads, np.setdiff1d(tried, pads)) & (gaps < reach)
         reach[off] = _BACK_ON * gaps[off]
 
+    effort.kept, begun = _KEPT * effort.left, effort.spent
     state, pads = balanced(replace(no_film(film), position=position))
     drop(pads, state.position)
-    spent, scale = state.iterations, film.load_scale(force)
+    scale = film.load_scale(force)
     missing = force[shaft] - state.linear.load[shaft]
     across: tuple[_Place, _Place] | None = None
+    least = math.inf  # of the jumps of the load between two such places
     for _ in range(_SHAFTS):
         touching = not gap.narrowest(state.position) > _TOUCHING
-        if not state.converged or touching or spent > _BUDGET * max_iterations:
+        if not state.converged or touching or effort.over:
             break
         if math.hypot(*missing) < _NEAR * scale:
             every = np.append(shaft, pads)
             start = (state.u, state.position)
             end = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=every)
+            effort.take(film, end.iterations)
             if end.converged:
-                return replace(end, iterations=spent + end.iterations)
+                effort.kept = 0.0
+                return replace(end, iterations=effort.spent - begun)
         stiffness = _condensed(state, shaft, pads)
         steady = np.linalg.cond(stiffness) < _LOOSE
         step = np.zeros(position.size)
@@ -265,10 +275,11 @@ def solve_with_pads(
         step = gap.advance(state.position, step) - state.position
         for _ in range(_HALVINGS):
             trial, some = balanced(replace(state, position=state.position + step))
-            spent += trial.iterations
             left = force[shaft] - trial.linear.load[shaft]
-            if trial.converged and missing @ left < 0.0 and not np.array_equal(pads, some):
-                across = (state, pads), (trial, some)
+            jump = math.hypot(*(left - missing))
+            opposite = trial.converged and missing @ left < 0.0 and not np.array_equal(pads, some)
+            if opposite and jump < least:
+                across, least = ((state, pads), (trial, some)), jump
             allowed = 1.0 if steady else 2.0
             if trial.converged and math.hypot(*left) < allowed * math.hypot(*missing):
                 break
@@ -279,10 +290,12 @@ def solve_with_pads(
         drop(pads, state.position)
     free = np.append(shaft, pads)
     found = math.hypot(*missing) / scale if state.converged else math.inf
-    ended = replace(state, converged=False, iterations=spent, residual=found, free=free)
-    if across is None:
-        return ended
-    return _with_lost(film, gap, ended, across, force[shaft], tolerance, max_iterations)
+    ended = replace(state, converged=False, residual=found, free=free)
+    if across is not None:
+        told = film, gap, ended, across, force[shaft], tolerance, max_iterations
+        ended = _with_lost(*told, effort)
+    effort.kept = 0.0
+    return replace(ended, iterations=effort.spent - begun)
 
 
 def _with_lost(
@@ -293,6 +306,7 @@ def _with_lost(
     force: Array,
     tolerance: float,
     max_iterations: int,
+    effort: Effort,
 ) -> Solution:
     """What has `ended`, with its `lost` pads if there are two places beside each other that a
     film holds them at and does not, and the load `force` of the shaft lies between those of both.
@@ -302,7 +316,7 @@ def _with_lost(
     (near, held), (far, others) = across
     every = np.union1d(held, others)
     while True:
-        way, spent = far.position - near.position, ended.iterations
+        way = far.position - near.position
         short = [force - each.linear.load[: force.size] for each in (near, far)]
         if not short[0] @ short[1] < 0.0:
             return ended
@@ -310,7 +324,7 @@ def _with_lost(
             return replace(ended, u=near.u, position=near.position, lost=np.setxor1d(held, others))
         middle = replace(near, position=near.position + 0.5 * way)
         state, pads = _balanced(film, gap, middle, every, tolerance, max_iterations)
-        ended = replace(ended, iterations=spent + state.iterations)
+        effort.take(film, state.iterations)
         if not state.converged:
             return ended
         if np.array_equal(pads, held):

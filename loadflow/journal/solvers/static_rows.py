@@ -14,6 +14,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_cells, field_row, static_row
 from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.search import Search, goes_on
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
@@ -42,14 +43,27 @@ def equilibrium_rows(
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        used, solution = statics.resolve(index, load, omega, last, control)
+        search = Search() if line.searches is None else line.searches[index]
+        if control.strict and search.why is not None and search.why[0] == omega:
+            raise SolverError(f"load {index}: {search.why[1]}")
+        effort = search.effort(statics.film, control.max_iterations)
+        on, near = statics, last
+        if search.last is not None:
+            on, near = goes_on(*search.last, statics)
+        used, solution = on.resolve(index, load, omega, near, control, effort=effort)
+        if not solution.converged and on is not statics:
+            used, solution = statics.resolve(index, load, omega, last, control, effort=effort)
         if not solution.converged and line.start(index) is not None:
             afresh = Statics(bearing, options, replace(line, near=None), statics.rate)
             afresh.film.raise_scale(statics.film.scale)
-            used, solution = afresh.resolve(index, load, omega, None, control)
-        if not solution.converged and control.strict:
-            raise SolverError(f"load {index}: {used.message(solution, load)}")
-        last = solution if solution.converged and used is statics else last
+            used, solution = afresh.resolve(index, load, omega, None, control, effort=effort)
+        if not solution.converged:
+            search.why = omega, used.message(solution, load)
+            if control.strict:
+                raise SolverError(f"load {index}: {search.why[1]}")
+        else:
+            search.last = used, solution
+            last = solution if used is statics else last
         rows.append(
             static_row(bearing, used.film, used.gap, load, options.liquid, solution, line.whirl)
         )

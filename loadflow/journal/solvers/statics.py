@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import cast
 
 import numpy as np
@@ -136,7 +136,7 @@ class Statics:
         mesh fixed to the shell there may be no equilibrium on it, so that cells crowd there, on up
         to `meshes` others, as long as the `effort` lasts.
         """
-        refine, effort = self.can_refine, effort or self._effort(control)
+        refine, effort = self.can_refine, effort or Effort.of(self.film, control.max_iterations)
         others = self.film.elastic and meshes > 0 and self._may_double(omega)
         effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
@@ -145,7 +145,7 @@ class Statics:
         if (solution.converged and resolved) or not self._carries(self._force(index, load)):
             return self, solution
         if refine:
-            return self.finer.resolve(index, load, omega, None, control)
+            return self.finer.resolve(index, load, omega, None, control, meshes, effort)
         crowded = self._crowded(solution) if meshes and not effort.over else None
         if crowded is None:
             return self, solution
@@ -202,7 +202,11 @@ class Statics:
         From the `last` solution, if that is near, and from a first position; if `in_steps` also by
         steps of the load, as long as the `effort` lasts.
         """
-        film, gap, effort = self.film, self.gap, effort or self._effort(control)
+        film, gap, effort = (
+            self.film,
+            self.gap,
+            effort or Effort.of(self.film, control.max_iterations),
+        )
         film.relax()
         film.set_speed(omega)
         force = self._force(index, load)
@@ -214,17 +218,15 @@ class Statics:
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
-        solution, estimate, pads = self._by_newton(force, estimate, last, limits)
-        effort.take(film, solution.iterations)
+        solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
         if in_steps and not (solution.converged or effort.over):
             solution = self._in_steps(force, estimate, pads, limits, effort)
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
             if fixed and self._has_path and not _ended(film, solution, effort):
-                given = film, force, estimate, *limits, effort, solution, free
-                solution = solve_beyond_fold(*given)
+                solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
             if fixed and not _ended(film, solution, effort):
                 solution = self._by_other_loads(force, estimate, limits, effort) or solution
-        found = self._checked(replace(solution, estimate=estimate, iterations=effort.spent))
+        found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
         return replace(found, given_up=effort.over and not found.converged)
 
     def hold(
@@ -285,8 +287,8 @@ class Statics:
         film = self.film
         film.set_speed(omega)
         limits = control.tolerance, film.newton_steps(control.max_iterations)
-        found = solve_from_held(film, force, solution.position, *limits, self._effort(control))
-        return self._checked(found)
+        effort = Effort.of(film, control.max_iterations)
+        return self._checked(solve_from_held(film, force, solution.position, *limits, effort))
 
     def message(self, solution: Solution, load: Array | None = None) -> str:
         """Why there is no answer for `load`, or at the position given, with numbers."""
@@ -342,17 +344,22 @@ class Statics:
         return np.append(np.arange(self.gap.size)[self.shaft], pads) if pads.size else self.shaft
 
     def _by_newton(
-        self, force: Array, estimate: Array, last: Solution | None, limits: tuple[float, int]
+        self,
+        force: Array,
+        estimate: Array,
+        last: Solution | None,
+        limits: tuple[float, int],
+        effort: Effort,
     ) -> tuple[Solution, Array, Rows]:
-        """Newton from every start; with it the position and the pads that it ended at."""
-        film, gap, spent = self.film, self.gap, 0
+        """Newton from all starts that the `effort` allows; the position and pads it ended at."""
+        film, gap, begun = self.film, self.gap, effort.spent
         pads = gap.converging(estimate, film.speed)
         for round_ in range(_PAD_ROUNDS):
             free = self._free(self._on_pads(pads))
-            for start in self._starts(force, estimate, last, free, pads, limits):
+            for start in self._starts(force, estimate, last, free, pads, limits, effort):
                 solution = solve_equilibrium(film, force, *start, *limits, free=free)
-                spent += solution.iterations
-                if solution.converged:
+                effort.take(film, solution.iterations)
+                if solution.converged or effort.over:
                     break
             tilting = gap.converging(solution.position, film.speed)
             if round_:  # a pad that has come off stays off: at the limit it would go on and off
@@ -361,7 +368,7 @@ class Statics:
                 break
             estimate = np.append(solution.position[:2], estimate[2:])
             estimate, last, pads = gap.lifted(estimate, film.speed), None, tilting
-        return replace(solution, iterations=spent), estimate, pads
+        return replace(solution, iterations=effort.spent - begun), estimate, pads
 
     def _starts(
         self,
@@ -371,6 +378,7 @@ class Statics:
         free: slice | Rows,
         pads: Rows,
         limits: tuple[float, int],
+        effort: Effort,
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         film, gap = self.film, self.gap
@@ -382,9 +390,10 @@ class Statics:
             reach = math.inf if film.elastic else NEAR * film.narrowest(last.u, position)
             if math.hypot(*(estimate - last.estimate)[:2]) < reach:
                 yield last.u, position
-        floating = floating_film(self.film, self.gap, force, estimate) if lifts and fed else None
-        afloat = floating is not None and carries_there(floating, self.film, force)
-        if floating is not None and afloat:
+        afloat = partial(floating_film, film, gap, force, estimate, effort)
+        floating = afloat() if lifts and fed else None
+        carried = floating is not None and carries_there(floating, self.film, force)
+        if floating is not None and carried:
             yield floating.u, floating.position
         still = np.zeros(gap.size)
         if pads.size:  # a film first: from none the tilts would go far
@@ -392,8 +401,8 @@ class Statics:
         else:
             yield film.start(), estimate
         if lifts and not fed:
-            floating = floating_film(self.film, self.gap, force, estimate)
-        if floating is not None and not afloat:
+            floating = afloat()
+        if floating is not None and not carried:
             yield floating.u, floating.position
 
     def _by_other_loads(
@@ -404,9 +413,7 @@ class Statics:
         def newton(share: float, last: Solution | None) -> Solution:
             place = estimate if last is None else last.position
             before = None if last is None else replace(last, estimate=place)
-            found = self._by_newton(share * force, place, before, limits)[0]
-            effort.take(self.film, found.iterations)
-            return found
+            return self._by_newton(share * force, place, before, limits, effort)[0]
 
         return solve_from_other_loads(newton, limits[1], effort)
 
@@ -420,8 +427,7 @@ class Statics:
             return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
-            on_pads = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits)
-            effort.take(film, on_pads.iterations)
+            on_pads = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits, effort)
             if on_pads.converged:
                 return on_pads
             self._on_pads(pads)
@@ -431,10 +437,6 @@ class Statics:
         if self.gap.pads.size or not self._has_path:
             return solve_from_held(*given)
         return solve_from_held(*given, _LONG)  # a path goes on
-
-    def _effort(self, control: Limits) -> Effort:
-        """What the searches for one film may take."""
-        return Effort.of(self.film, self.film.newton_steps(control.max_iterations))
 
 
 def _ended(film: DiscreteFilm, solution: Solution, effort: Effort) -> bool:

@@ -19,6 +19,7 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.heat import HOTTEST
 from loadflow.journal.solvers.newton import Solution, no_film
+from loadflow.journal.solvers.search import Search
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import FilmOf, HeatOf, WarmFilm, coupled, energy_of, no_warmth
 from loadflow.numerics.convergence import Limits
@@ -194,6 +195,7 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
     some = SeriesLoads.of(len(loads))
     each = replace(control, strict=False)
     found: dict[int, Solution] = {}
+    search = Search()  # one effort for all loads at all temperatures
 
     def film_of(before: Solution | None) -> Solution:
         spent, worst = 0, no_film(statics.film)
@@ -201,7 +203,9 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         beside: Solution | None = None  # of the load before: what is found at once costs little
         for index in asked:
             last = beside if before is None else found.get(index, beside)
-            solution = statics.solve(index, loads[index], float(speeds[index]), last, each)
+            effort = search.effort(statics.film, each.max_iterations)
+            given = index, loads[index], float(speeds[index]), last, each
+            solution = statics.solve(*given, True, effort)
             spent += solution.iterations
             found.pop(index, None)
             if solution.converged:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
+from loadflow.journal.film.cell_error import warm_errors
 from loadflow.journal.film.energy_equation import EnergyEquation
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
@@ -16,6 +17,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.newton import Solution, solve_film
+from loadflow.journal.solvers.search import Search
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import (
     WarmFilm,
@@ -54,6 +56,7 @@ def warm_rows(
     rows = []
     last: tuple[Solution, Warmth] | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
+        search = Search()
 
         def found_on(
             statics: Statics,
@@ -61,9 +64,11 @@ def warm_rows(
             last: tuple[Solution, Warmth] | None,
             index: int = index,
             omega: float = omega,
+            search: Search = search,
         ) -> WarmFilm:
             def film_of(before: Solution | None) -> Solution:
-                return statics.solve(index, loads[index], omega, before, each)
+                effort = search.effort(statics.film, each.max_iterations)
+                return statics.solve(index, loads[index], omega, before, each, effort=effort)
 
             return coupled(equation, film_of, last, equation.alone)
 
@@ -113,6 +118,7 @@ def warm_fields(
             why = found.why or statics.message(found.solution)
             raise SolverError(f"film {index}: {why}")
         row = field_row(statics.film, statics.gap, found.film)
+        row = with_heat_bounds(row, equation, found, np.inf)
         row["eccentricity_ratio"] /= 1.0 + equation.mean_growth / bearing.clearance
         row |= heat_columns(equation, found)
         if equation.heat.stiffness == "settled" and found.converged and found.warmth is not None:
@@ -157,6 +163,7 @@ def _row(
     heat, film = equation.heat, equation.film
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = static_row(bearing, film, statics.gap, load, heat.lubricant(mean), found.film, whirl)
+    row = with_heat_bounds(row, equation, found, row["minimum_film"] / bearing.clearance)
     if heat.growth is not None:
         row |= in_grown_clearances(row, bearing, equation, found)
     angle, z = film.mesh.angle, film.mesh.z * bearing.radius
@@ -215,6 +222,16 @@ def in_grown_clearances(
         "critical_reynolds_number": critical,
         "laminar": reynolds < critical,
     }
+
+
+def with_heat_bounds(
+    row: dict[str, Any], equation: Temperatures, found: WarmFilm, narrow: float
+) -> dict[str, Any]:
+    """A `row` whose bounds of what cells do count heat, too; `narrow` is that of `warm_errors`."""
+    if not found.converged or "relative_grid_error" not in row:
+        return row
+    given = equation.left_by_cells(), row["eccentricity_ratio"], np.array(narrow)
+    return row | {"relative_grid_error": warm_errors(row["relative_grid_error"], *given)}
 
 
 def heat_columns(equation: Temperatures, found: WarmFilm) -> dict[str, Any]:
