@@ -92,3 +92,13 @@ def test_oil_that_is_conserved_finds_its_film_in_a_shell(compliance, alone):
     assert float(ratios[0]) == pytest.approx(float(ratios[1]), rel=0.003)
     begun = BEARING.orbit([0.0, 1e-3], [(6e3, -1.5e4)] * 2, [SPEED] * 2, film)
     assert float(begun["eccentricity_ratio"][-1]) == pytest.approx(float(ratios[0]), rel=1e-4)
+
+
+def test_a_rupture_that_moves_by_points_leads_to_a_film_at_once():
+    """With a shaft that follows each wrong rupture, 60 Newton steps to and fro led nowhere."""
+    around = np.linspace(0.0, 2 * np.pi, 12, endpoint=False)
+    force = 6e3 * np.stack([np.cos(around), np.sin(around)], axis=1)
+    film = replace(REDUCED, cavitation=MassConserving(), shell=None)
+    found = BEARING.equilibrium(force, np.full(12, 100.0), film)
+    assert found.converged.all()
+    assert found.iterations.max() < 50

@@ -61,6 +61,8 @@ from loadflow.numerics.references import refer
 KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
 MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
+WAITS = 100.0  # flows that a point lacks, above which the shaft waits for a rupture with a kink
+FILLS = 0.1  # pressure over its scale that a point may take in the step in which it fills
 ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
@@ -121,9 +123,8 @@ def _farthest(film, ratio, depth):
 
 @once
 def _shaft_step(film, work, load, size, step):
-    """Newton step (4,) of a shaft that is to carry `load` (4,), shortened where it is too long."""
+    """Fill the Newton `step` (4,) of a shaft that is to carry `load` (4,), as long as it may be."""
     carry(film, work, size)
-    step[:] = 0.0
     for a in range(size):
         work.system[a, size] = -(load[a] - work.load[a] - work.touch[0, a] + work.carried[0, a])
         for b in range(size):
@@ -148,13 +149,23 @@ def _shaft_step(film, work, load, size, step):
 
 @inner
 def correct(film, work, step, size, share):
-    """Unknowns after a share of a Newton step from `work.trial`."""
-    block = work.u.size
+    """Unknowns after a share of a Newton step from `work.trial`.
+
+    What is above the kink of a point that fills is oil that has no room, and no pressure: that
+    would be a thousand times too much, and press a shell open.
+    """
+    block, kink = work.u.size, film.ring.kink
     for here in range(0, block, LANES):
         change = take(work.columns, here)
         for a in range(size):
             change = change + take(work.columns, (1 + a) * block + here) * step[a]
         put(work.u, here, take(work.trial, here) - change * share)
+    if kink > -np.inf:
+        most = kink + FILLS * film.ring.scale
+        for i in range(work.u.shape[0]):
+            for k in range(work.u.shape[1]):
+                if work.trial[i, k] < kink:
+                    work.u[i, k] = min(work.u[i, k], most)
 
 
 @once
@@ -197,6 +208,9 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
     Factors that are there take the first step: those of the last time bring a film in motion as
     far as new ones would from there. They go on as long as a few steps at the pace of the last one
     reach the tolerance.
+
+    Where a law has a kink, the shaft waits while points that count as full lack far too much: it
+    would follow a load that is not there, and move the rupture to and fro.
     """
     wedge = 0.5 * film.ring.slope * speed
     flux = (abs(wedge) + film.ring.scale) * film.nodes.widest
@@ -205,13 +219,12 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         total += load[a] * load[a]
     force_scale = max(np.sqrt(total), 0.5e-3 * film.ring.scale * film.ring.area)
     step = work.step
-    for a in range(4):
-        step[a] = 0.0
     turn(film, work, speed, lightness)
     spent, last = 0, np.inf
     place(film, work, q)
     while True:
         residual = max(balance(film, work, wedge, rate) / flux, unfed(film, work))
+        waits = film.ring.kink > -np.inf and residual > WAITS
         touch(film, work, q)
         missing = 0.0
         for a in range(size):
@@ -245,7 +258,8 @@ def _newton(film, work, q, load, size, speed, lightness, rate, tolerance, max_it
         follow_shell(film, work, wedge, rate, columns, NEAR)
         follow_grooves(film, work, wedge, rate, size, fresh)
         last = residual
-        if size > 0:
+        step[:] = 0.0
+        if size > 0 and not waits:
             _shaft_step(film, work, load, size, step)
         _advance(film, work, q, step, size)
 

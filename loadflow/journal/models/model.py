@@ -198,9 +198,6 @@ def _pairs(
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(verb, film, bearing)
     if film.rung == "reduced" and film.shell is not None and not film.shell.local:
-        fed = verb == "in_motion" and film.supply is not None and film.law.kind == "mass-conserving"
-        words = "None beside a supply with MassConserving in motion in such a shell"
-        yield "contact", film.contact, fed, words
         cells = 'one that is known on every grid, in a shaped bore on rung = "reduced"'
         apart = bool(bearing.shape.segments) and not film.shell.any_grid
         yield "shell", film.shell, apart, cells

@@ -53,6 +53,9 @@ class Ring(NamedTuple):
         Address of the law of cavitation.
     numbers : array
         Its parameters.
+    kink : float
+        Unknown, Pa, below which it stands for the fill, and above for the pressure; −∞ where a law
+        has no such kink.
     edge_fill : float
         Fill of the oil that enters at the bearing ends.
     scale, p_edge : float
@@ -80,6 +83,7 @@ class Ring(NamedTuple):
     order: NDArray[np.int64]
     law: int
     numbers: Array
+    kink: float
     edge_fill: float
     scale: float
     p_edge: float
@@ -115,6 +119,7 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
         groove=np.zeros(count, dtype=bool), back=half,
         lobe=np.outer([1.0, 0.0, 0.0], np.ones(count)), shaped=False, order=film.mesh.order,
         law=film.law.address, numbers=np.array(film.law.numbers),
+        kink=film.law.floor if film.law.keeps_fill and not film.law.smooth else -np.inf,
         edge_fill=film.law.fill_at(film.p_edge), scale=film.scale, p_edge=film.p_edge,
         slope=film.slope, area=share * film.radius**2,
     )  # fmt: skip
