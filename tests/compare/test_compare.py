@@ -27,6 +27,7 @@ from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
 from loadflow.quantities import three_digits
 from loadflow.report.compare_page import _row, short, write_comparison
+from loadflow.report.moments import Moment, moment_chart
 from loadflow.report.sketch import sketch
 from loadflow.running import kept_numbers
 from loadflow.running.candidates import candidate_scene, candidates_for
@@ -661,7 +662,40 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
     for one in found.comparison.candidates:  # each number of a load case leads to it
         for key, number in one.numbers.items():
             extreme = bool(number.case) and math.isfinite(number.value)
-            assert (f"#{one.name}.{key}" in parser.links) == extreme, key
+            time = "" if math.isnan(number.time) else f"-{number.time:.3f}"
+            assert (f"{one.name}.at-{number.case}-{number.place}{time}" in parser.ids) == extreme
+            row = re.search(rf'<tr id="{re.escape(f"{one.name}.{key}")}">.*?</tr>', page)
+            assert (row is not None) == extreme, key
+            assert row is None or f'href="#{one.name}.at-{number.case}-' in row[0]
+
+
+def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series():
+    time = np.arange(0.0, 120.0, 0.1)
+    force = np.stack([0.0 * time, 3e5 + time, 4e5 + 0.0 * time])
+    series = xr.Dataset(
+        {"speed": ("time", 1.2 + 0.0 * time, {"units": "rad/s"}),
+         "force": (("axis", "time"), force, {"units": "N"}),
+         "moment": (("axis", "time"), 0.0 * force, {"units": "N m"})},
+        {"time": time},
+    )  # fmt: skip
+    film = xr.Dataset(
+        {"time": ("sample", [70.3, 2.0, 50.01]),
+         "minimum_film": ("sample", [20e-6, 1e-6, 30e-6], {"units": "m"})},
+    )  # fmt: skip
+    chart = moment_chart(Moment("a", 60.0, "N"), series, {"journal bearing": film}, "c")
+    assert (chart.x[0], chart.x[-1]) == pytest.approx((45.0, 75.0))
+    assert chart.mark == 60.0
+    across, speed, thin = chart.panels  # neither thrust nor moment: no lines of zeros
+    assert [*across.lines] == ["across the shaft"]
+    at = np.flatnonzero(np.isclose(chart.x, 60.0))
+    assert across.lines["across the shaft"][at] == pytest.approx(np.hypot(3e2 + 0.06, 4e2))
+    known = np.isfinite(thin.lines["journal bearing"])
+    assert chart.x[known] == pytest.approx([50.0, 70.3])  # the sample at 2 s is out of sight
+    assert thin.lines["journal bearing"][known] == pytest.approx([30.0, 20.0])
+    assert thin.dots
+    whole = moment_chart(Moment("a", math.nan, "N"), series, {}, "c")
+    assert whole.mark is None
+    assert whole.x.size == time.size
 
 
 def judged_of(name, energy, kind="rolling", **own):
@@ -733,7 +767,7 @@ def listed(key, number):
 def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     numbers = {key: listed(key, Number(0.9, "–", limit=0.95, holds=True))}
     data = {"quantities": named_quantities()}
-    row = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
+    row = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]}, ())
     assert row.limit == said
     [cell] = row.cells
     assert (cell.value, cell.state, cell.limit) == ("0.900", "good", "")
@@ -753,7 +787,7 @@ def test_limits_that_differ_stand_in_each_cell():
         {"name": name, "numbers": {key: listed(key, Number(20.0, "µm", limit=limit, holds=True))}}
         for name, limit in (("one", 10.0), ("two", 13.8))
     ]
-    row = _row(key, data | {"candidates": both})
+    row = _row(key, data | {"candidates": both}, ())
     assert row.limit == ""
     assert [cell.limit for cell in row.cells] == ["limit ≥ 10", "limit ≥ 13.8"]
 
@@ -767,7 +801,7 @@ def test_the_limit_of_some_stands_beside_them_alone():
             {"name": name, "numbers": {key: listed(key, number)}}
             for name, number in (("bore", held), ("pads", free))
         ]
-        row = _row(key, data | {"candidates": both})
+        row = _row(key, data | {"candidates": both}, ())
         assert (row.limit, [cell.limit for cell in row.cells]) == ("", ["limit ≤ 0.95", ""])
 
 
