@@ -73,35 +73,37 @@ def moment_charts(
     for case in answered(folder, "shaft", answered(folder, "loads", cases)):
         (shaft,) = read_part(folder, "shaft", case, ("force", "moment")).values()
         (loads,) = read_part(folder, "loads", case, ("speed",)).values()
+        of_place = _samples(folder, case)
         for moment, names in wanted.items():
             if moment.case == case and moment.place in shaft["bearing"].values:
                 series = shaft.sel(bearing=moment.place).assign(speed=loads["speed"])
                 caption = f"{moment.told}: {', '.join(names)}"
-                samples = _samples(folder, moment)
+                samples = of_place.get(moment.place, {})
                 yield moment_chart(moment, series, samples, caption, before + moment.anchor)
 
 
-def _samples(folder: Path, moment: Moment) -> dict[str, xr.Dataset]:
-    """What the bearing at the place of a moment has of samples of its case, by its kind."""
-    found = {}
+def _samples(folder: Path, case: str) -> dict[str, dict[str, xr.Dataset]]:
+    """What the bearing at each place has of samples of a case, by its kind."""
+    found: dict[str, dict[str, xr.Dataset]] = {}
     for stage in ("journal", "thrust"):
-        for case in answered(folder, stage, [moment.case]):
-            films = read_part(folder, stage, case, _OF_FILMS)
-            if moment.place in films:
-                found[f"{stage} bearing"] = films[moment.place]
-    for case in answered(folder, "rolling", [moment.case]):
+        for _ in answered(folder, stage, [case]):
+            for place, films in read_part(folder, stage, case, _OF_FILMS).items():
+                found.setdefault(place, {})[f"{stage} bearing"] = films
+    for _ in answered(folder, "rolling", [case]):
         (data,) = read_part(folder, "rolling", case, _OF_ELEMENTS).values()
-        places = data["bearing"].values.tolist()
-        if places[:1] == [moment.place]:  # of which alone all samples are kept
-            found["rolling bearing"] = data[["time", "maximum_pressure"]]
-        elif moment.place in places:
-            own = data.sel(bearing=moment.place)
-            found["rolling bearing, largest of the load case"] = xr.Dataset(
-                {
-                    "time": ("sample", [own["bearing_pressure_time"].item()]),
-                    "maximum_pressure": (
-                        "sample", [own["bearing_pressure"].item()], data["maximum_pressure"].attrs
-                    ),
-                }
-            )  # fmt: skip
+        first, *others = data["bearing"].values.tolist()  # of the first alone all are kept
+        found.setdefault(first, {})["rolling bearing"] = data[["time", "maximum_pressure"]]
+        for place in others:
+            largest = _largest(data.sel(bearing=place), data["maximum_pressure"].attrs)
+            found.setdefault(place, {})["rolling bearing, largest of the load case"] = largest
     return found
+
+
+def _largest(data: xr.Dataset, attributes: Mapping[str, str]) -> xr.Dataset:
+    """The largest pressure of a bearing in a case, as the only one of its samples."""
+    return xr.Dataset(
+        {
+            "time": ("sample", [data["bearing_pressure_time"].item()]),
+            "maximum_pressure": ("sample", [data["bearing_pressure"].item()], attributes),
+        }
+    )
