@@ -119,19 +119,12 @@ def _told(found: WornBearing | None, cycles: list[Cycle]) -> xr.Dataset:
     """Worn contour and history of one bearing."""
     if found is None:
         return xr.Dataset(attrs={"cycles": 0})
-    about = label("m", "worn depth after the life")
-    places = {
-        "angle": ("angle", found.angle, label("rad", "from straight down, with the rotation")),
-        "z": ("z", found.z, label("m", "place across the width, from its middle")),
-    }
     counts = label("1", "how often in the life")
-    return found.history.assign(
-        depth_of_bore=(("angle", "z"), found.depth, about),
-        count=("cycle", np.array([cycle.count for cycle in cycles]), counts),
-    ).assign_coords(places).assign_attrs(
-        cycles=len(cycles), films=found.iterations, residual=found.residual, volume=found.volume,
-        work=found.work,
-    )  # fmt: skip
+    return (
+        found.to_dataset()
+        .assign(count=("cycle", np.array([cycle.count for cycle in cycles]), counts))
+        .assign_attrs(cycles=len(cycles))
+    )
 
 
 STAGE = Stage(

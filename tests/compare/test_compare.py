@@ -651,7 +651,8 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
     page = found.page.read_text(encoding="utf-8")
     assert found.comparison.conclusion in page
     assert found.comparison.reservations in page
-    assert "nan" not in page.lower().replace("tenance", "")
+    shown = re.sub(r"<(script|style).*?</\1>", "", page, flags=re.DOTALL)
+    assert "nan" not in shown.lower().replace("tenance", "")
     parser = Links()
     parser.feed(page)
     for link in parser.links:
@@ -685,7 +686,7 @@ def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series(
     chart = moment_chart(Moment("a", 60.0, "N"), series, {"journal bearing": film}, "c")
     assert (chart.x[0], chart.x[-1]) == pytest.approx((45.0, 75.0))
     assert chart.mark == 60.0
-    across, speed, thin = chart.panels  # neither thrust nor moment: no lines of zeros
+    across, _speed, thin = chart.panels  # neither thrust nor moment: no lines of zeros
     assert [*across.lines] == ["across the shaft"]
     at = np.flatnonzero(np.isclose(chart.x, 60.0))
     assert across.lines["across the shaft"][at] == pytest.approx(np.hypot(3e2 + 0.06, 4e2))
@@ -967,10 +968,15 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
     # the copy says in its title how wide the page is: wide tables scroll inside it
     probe = (
         "<script>addEventListener('load', () => {"
+        "const link = document.querySelector('.main td a[href*=\".at-\"]'); link.click();"
+        "setTimeout(() => {"
         "const drawn = document.querySelectorAll('svg.sketch rect').length;"
         "const wide = document.documentElement.scrollWidth > innerWidth;"
-        "document.title = `drawn ${drawn} wide ${wide}`;"
-        "});</script></body>"
+        "const frames = document.getElementById(link.hash.slice(1)).querySelectorAll('canvas');"
+        "const top = document.querySelector(link.hash.replaceAll('.', '\\\\.')).parentElement;"
+        "const seen = Math.abs(top.getBoundingClientRect().top) < innerHeight;"
+        "document.title = `drawn ${drawn} wide ${wide} frames ${frames.length > 2} seen ${seen}`;"
+        "}, 500)});</script></body>"
     )
     copy = tmp_path / "probe.html"
     text = found.page.read_text(encoding="utf-8")
@@ -985,7 +991,7 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
         ],
         capture_output=True, text=True, timeout=120, check=True,
     )  # fmt: skip
-    assert "<title>drawn 6 wide false</title>" in done.stdout
+    assert "<title>drawn 6 wide false frames true seen true</title>" in done.stdout
     assert "CONSOLE" not in done.stderr
 
 
