@@ -44,6 +44,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
+from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
 from loadflow.studies.compare import in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
@@ -507,7 +508,7 @@ def test_asked_starts_are_those_that_wear_follows_and_need_a_law(cube, tmp_path,
     seen = []
 
     def stop(scene, *_):
-        seen.append(scene.wear.count("3.1"))
+        seen.append(counts_of(scene, ["3.1"])["3.1"])
         raise InputError("seen")
 
     monkeypatch.setattr("loadflow.running.comparison.candidates_for", stop)

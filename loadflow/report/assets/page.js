@@ -146,8 +146,7 @@
     for (let one = target; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
     if (!target) return;
     drawVisible(); // charts that open above it would push it out of sight
-    const seen = target.matches(".chart") ? target.closest("details") ?? target : target; // with its title
-    seen.scrollIntoView({ block: seen.tagName === "TR" ? "center" : "start" });
+    target.scrollIntoView({ block: target.tagName === "TR" ? "center" : "start" });
   }
   addEventListener("hashchange", open);
   document.addEventListener("toggle", drawVisible, true);
