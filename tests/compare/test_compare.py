@@ -61,7 +61,7 @@ from loadflow.studies.compare_result import (
     missing,
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
-from loadflow.studies.compare_supply import supply_power
+from loadflow.studies.compare_supply import leaving, supply_power
 from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
@@ -384,6 +384,17 @@ def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(
     assert shares[0] == pytest.approx(shares[1])
     states = {"mean_supply_power": ("bearing", [2.0, 3.0]), "mean_side_flow": ("bearing", [1, 1])}
     assert supply_power(xr.Dataset(states)) == (5.0, "")
+    power, note = supply_power(xr.Dataset(states), 1e-3)  # m³/s of a collar, which has no supply
+    assert power == pytest.approx(5.0 + 1e5 * 1e-3)
+    assert note == "what leaves the collar at 0.1 MPa, assumed; not in the energy"
+
+
+def test_oil_of_pads_is_that_of_each_load_case_by_its_name():
+    flow = ("case", "bearing"), [[1.0, 2.0], [np.nan, 4.0]]
+    table = xr.Dataset({"mean_side_flow": flow}, {"case": ["b", "a"]})
+    assert leaving(table, np.array(["a", "b", "c"])).tolist() == [4.0, 3.0, 0.0]
+    assert leaving(None, np.array(["a", "b"])).tolist() == [0.0, 0.0]
+    assert supply_power(table)[0].tolist() == [3e5, 4e5]
 
 
 def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
