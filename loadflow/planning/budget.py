@@ -298,10 +298,10 @@ def _of(
 
 def _moment(source: _Source, table: xr.Dataset, bearing: str, values: Floats) -> tuple[str, float]:
     """Load case of an extreme over all cases, and its time where that is known."""
-    pick = {_largest: np.nanargmax, _smallest: np.nanargmin}.get(source.read)
-    if pick is None:
+    if source.read not in (_largest, _smallest):
         return "", float("nan")
-    case, name = str(table["case"].values[pick(values)]), f"{source.variable}_time"
+    at = np.nanargmax(values) if source.read is _largest else np.nanargmin(values)
+    case, name = str(table["case"].values[at]), f"{source.variable}_time"
     known = name in table
     return case, float(table[name].sel(bearing=bearing, case=case)) if known else float("nan")
 

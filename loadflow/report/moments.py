@@ -146,7 +146,7 @@ def _of_samples(
 ) -> Iterator[Panel]:
     """Yield the frame of what samples know, at their places of the series; none without any."""
     step = np.diff(time).max(initial=0.0)
-    own = {}
+    own: dict[str, xr.Dataset] = {}
     for what, data in samples.items():
         if name in data:
             near = (data["time"] >= time[0] - 0.5 * step) & (data["time"] <= time[-1] + 0.5 * step)

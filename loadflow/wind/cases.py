@@ -222,7 +222,8 @@ def by_load_case(told: Mapping[str, float], there: Iterable[str]) -> dict[str, f
     >>> by_load_case({"3.1": 900.0, "4.1b": 50.0, "start": 7.0}, there)
     {'3.1a': 450.0, '3.1b': 450.0, 'startup': 7.0}
     """
-    names, found = sorted(set(there)), {}
+    names = sorted(set(there))
+    found: dict[str, float] = {}
     for dlc, number in told.items():
         own = [name for name in names if name == dlc or (name not in told and _same(name, dlc))]
         found |= dict.fromkeys(own, number / max(len(own), 1))
