@@ -209,13 +209,35 @@ def test_events_that_are_not_there_or_take_more_than_a_year_are_refused():
 
 def test_wear_takes_the_events_of_the_lifetime_where_it_has_no_count_of_its_own():
     scene = events_scene(per_year={"3.1": 500}, years=25.0)
-    assert wear.count_of(scene, "3.1") == 12_500.0
-    assert wear.count_of(scene, "4.1") == scene.wear.events
+    counts = wear.counts_of(scene, ["1.2", "3.1", "4.1"])
+    assert counts == {"3.1": 12_500.0, "4.1": scene.wear.events}  # production has none
     own = make_scene(
         {"name": "w", "loads": {"dlc": ["1.2", "3.1"]}, "wear": {"counts": {"3.1": 7}},
          "lifetime": {"per_year": {"3.1": 500}}}
     )  # fmt: skip
-    assert wear.count_of(own, "3.1") == 7.0
+    assert wear.counts_of(own, ["1.2", "3.1"]) == {"3.1": 7.0}
+    variants = wear.counts_of(own, ["3.1a", "3.1b", "startup"])
+    assert variants == {"3.1a": 3.5, "3.1b": 3.5, "startup": own.wear.events}
+
+
+def test_variants_of_a_load_case_share_its_number_and_have_a_share_of_the_lifetime():
+    dlcs, lengths = ["1.2", "3.1a", "3.1b"], [600.0, 300.0, 300.0]
+    both = lifetime_shares(dlcs, [8.0] * 3, lengths, per_year={"3.1": 1000})
+    assert both[1:] == pytest.approx([500 * 300 / YEAR] * 2)
+    own = lifetime_shares(dlcs, [8.0] * 3, lengths, per_year={"3.1": 1000, "3.1b": 10})
+    assert own[1:] == pytest.approx([1000 * 300 / YEAR, 10 * 300 / YEAR])
+    words = lifetime_shares(["1.2", "startup"], [8.0] * 2, lengths[:2], per_year={"start": 7})
+    assert words[1] == pytest.approx(7 * 300 / YEAR)
+    table = rolling_table(["1.2", "3.1a"], [600.0, 300.0])
+    share = case_shares(events_scene(per_year={"3.1": 1000}), table)
+    assert share[1] == pytest.approx(1000 * 300 / YEAR)
+
+
+def test_a_number_of_a_load_case_that_is_not_there_says_which_is_meant():
+    with pytest.raises(InputError, match=r"per_year: no load case '3\.l'; did you mean 3\.1"):
+        events_scene(per_year={"3.l": 10})
+    with pytest.raises(InputError, match=r"wear\.counts: no load case '4\.1'"):
+        make_scene({"name": "w", "loads": {"dlc": ["1.2", "3.1"]}, "wear": {"counts": {"4.1": 7}}})
 
 
 def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():
@@ -238,5 +260,5 @@ def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():
     assert told["wear.events"].endswith("wear.counts and lifetime.per_year")
     assert "lifetime.years" not in told
     assert "wear.counts" not in told
-    assert "no load case 2.4" in said(counts={"2.4": 5})["wear.counts"]
+    assert "no load case 1.2" in said(counts={"1.2": 5})["wear.counts"]
     assert "lifetime.years" in said({"1.2": 5})  # production does not wear

@@ -53,6 +53,22 @@ def test_the_page_needs_no_other_file_and_no_network(page):
         assert f'id="{target}"' in text
 
 
+def test_verdicts_and_answers_lead_to_the_series_around_their_moment(page):
+    text = page.read_text()
+    for title in ("Answers", "Verdicts"):
+        table = text.partition(f"<caption>{title}</caption>")[2].partition("</table>")[0]
+        for link, said in re.findall(r'<a href="#(at-[^"]*)">([^<]*)</a>', table):
+            chart = re.search(rf'id="{re.escape(link)}".*?json">(.*?)</script>', text)
+            data = json.loads(chart[1])
+            if said.endswith(" s"):  # the moment is marked, and the series shown around it
+                assert data["mark"] == pytest.approx(float(said.split(", ")[-1][:-2]), abs=0.051)
+            labels = [panel["label"] for panel in data["panels"]]
+            assert labels[0].startswith("force, ")
+            film = "-M" not in link  # which stands on balls
+            assert any(label.startswith("smallest film") for label in labels) == film, link
+        assert 'href="#at-' in table, title
+
+
 def test_the_page_opens_with_the_verdict_and_answers_and_ends_with_what_made_it(page):
     text = page.read_text()
     shown = text[text.index("<h1>") :]

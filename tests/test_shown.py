@@ -20,6 +20,7 @@ from loadflow.journal import (
     ConicalBearing,
     ConicalPair,
     Contact,
+    Cycle,
     DoubleThrustBearing,
     FilmHeat,
     Heat,
@@ -28,7 +29,10 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     PadHeat,
+    Reynolds,
     ThrustBearing,
+    Wear,
+    wear_bearing,
 )
 from loadflow.journal.film_model import Film
 from loadflow.numerics.shown import Shown
@@ -48,8 +52,9 @@ from loadflow.rolling import (
     axial_expansion,
     edge_contact,
 )
+from loadflow.rolling.friction import balanced_temperature
 from loadflow.studies.statistics import statistic_records
-from loadflow.tribology import AsperityContact, lubricant
+from loadflow.tribology import Archard, AsperityContact, hertz_line, hertz_point, lubricant
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
 OIL = Lubricant(0.05)
@@ -248,8 +253,41 @@ def results():
         axial_expansion(RING, [5e4, 1e5], rings),
         edge_contact(ROLLERS, 2e3, cells=(24, 16), tolerance=1e-4),
         Transient(np.array([0.0, 0.1]), np.full((2, 5), 1e-5), np.array([0.0, 3e3]), 1e-9),
+        hertz_point(50.0, 50.0, 25.0, [25.0, 30.0], force=100.0),
+        hertz_line(100.0, 0.0, length=0.03, force=2e4),
+        balanced_temperature(
+            ROLLERS.equilibrium((2e3, 0.0, 0.0)), 20.0, GREASED, conductance=1.0, ambient=293.15
+        ),
+        worn_bore(),
     ]
     return {type(one).__name__: one for one in found}
+
+
+def worn_bore():
+    """A bore worn by starts under one load."""
+    rough = AsperityContact(roughness=0.5e-6, contact_modulus=115e9, factor=1e-3)
+    film = Film(Lubricant(0.03), Reynolds(), grid=(60, 8), contact=Contact(rough))
+    turn = Cycle([0.0, 1.0], [(4e4, 0.0)] * 2, [0.5, 0.5], 1e3, in_motion=False)
+    return wear_bearing(JournalBearing(0.2, 0.1, 1e-3), [turn], film, Wear(Archard(1e-17)))
+
+
+def test_a_contact_is_drawn_over_its_ellipse_and_a_worn_bore_where_it_is_worn():
+    contact = hertz_point(50.0, 50.0, 25.0, [25.0, 30.0], force=[100.0, 400.0])
+    major, minor = contact.plot().axes[0].lines
+    assert major.get_xdata().max() == pytest.approx(1e3 * contact.semi_axes[0][1])
+    assert minor.get_ydata().max() == pytest.approx(contact.pressure[1] / 1e6)
+    area = trapezoid(major.get_ydata(), major.get_xdata())  # of a half ellipse
+    assert area == pytest.approx(np.pi / 2 * 1e3 * contact.semi_axes[0][1] * contact.pressure[1]
+                                 / 1e6, rel=1e-3)  # fmt: skip
+    worn = worn_bore()
+    contour, way = worn.plot().axes[:2]
+    if worn.z.size > 1:
+        assert contour.collections[0].get_array().max() == pytest.approx(1e6 * worn.deepest)
+    else:
+        assert contour.lines[0].get_ydata().max() == pytest.approx(1e6 * worn.deepest)
+    assert way.lines[0].get_ydata()[-1] == pytest.approx(1e6 * worn.deepest, rel=1e-6)
+    data = worn.to_dataset()
+    assert float(data["depth_of_bore"].max()) == worn.deepest > 0
 
 
 def classes_of_results():

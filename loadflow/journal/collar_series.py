@@ -324,6 +324,7 @@ class CollarSeries:
             maximum_pressure=(self.film.edge_pressure + pressure) * shown,
             friction_torque=torque * np.sign(speed) * shown,
             friction_power=torque * np.abs(speed) * shown,
+            side_flow=(rows[0].side_flow + rows[1].side_flow) * shown,
             touching=touching,
             converged=found,
             residual=residual * shown,

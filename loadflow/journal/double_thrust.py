@@ -120,6 +120,11 @@ class DoubleThrustResult(Shows):
         return float(np.hypot(*self.moment))
 
     @property
+    def side_flow(self) -> float:
+        """Oil that leaves at the inner and the outer ends of both rows, m³/s."""
+        return float(np.sum(self.front.side_flow) + np.sum(self.back.side_flow))
+
+    @property
     def temperature(self) -> float:
         """Of the films of the warmer row, K; NaN without heat."""
         rows = self.front, self.back

@@ -372,6 +372,11 @@ class PairResult(Shows):
     }  # fmt: skip
 
     @property
+    def side_flow(self) -> float:
+        """Oil that leaves at both ends of both cones, m³/s."""
+        return float(np.sum(self.left.side_flow) + np.sum(self.right.side_flow))
+
+    @property
     def grid_error(self) -> PadError:
         """Bounds of what the cells do to the results, of both cones together."""
         return of_both(self.left, self.right)

@@ -26,11 +26,12 @@ _DECADE = 8  # columns in a decade of speed
 _PROBES = 8  # gaps at which the interpolation over speed is checked
 _ROOTS = {"xatol": 0.0, "xrtol": 1e-12, "fatol": 0.0, "frtol": 0.0}
 _CLOSED = 1e-9  # of the larger film force: an equilibrium is one
-FORCE, PRESSURE, TORQUE, FILM = range(4)
-"""Rows of a table: force, largest pressure above that of the edges, friction torque, least film."""
+FORCE, PRESSURE, TORQUE, FILM, SIDE_FLOW = range(5)
+"""Rows of a table: force, largest pressure above that of the edges, friction torque, least film,
+and what leaves at the ends, whose error is not told: nothing that must hold follows from it."""
 
-_POWERS = np.array([2.0, 2.0, 1.0, -1.0])  # of the gap, and ...
-_DRAGGED = np.array([1.0, 1.0, 1.0, 0.0])  # ... of the speed, with which a row is nearly constant
+_POWERS = np.array([2.0, 2.0, 1.0, -1.0, -1.0])  # of the gap, and ...
+_DRAGGED = np.array([1.0, 1.0, 1.0, 0.0, 1.0])  # ... of the speed, by which a row is nearly even
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,8 @@ class CollarFilms:
         Of both rows, m; Pa, absolute.
     friction_torque, friction_power : array (n,)
         N m, W.
+    side_flow : array (n,)
+        Oil that leaves at the ends of both rows, of films at rest at their gaps, m³/s.
     touching : array of bool (n,)
         Whether only a film under the thinnest of the table, or none, carries the force.
     converged : array of bool (n,)
@@ -62,6 +65,7 @@ class CollarFilms:
     maximum_pressure: Array
     friction_torque: Array
     friction_power: Array
+    side_flow: Array
     touching: NDArray[np.bool_]
     converged: NDArray[np.bool_]
     residual: Array
@@ -154,7 +158,7 @@ class CollarCurves:
         require(bool(np.isfinite(speeds).all()), "speed", speed, "rad/s, finite")
         found = {name: np.full(loads.size, np.nan) for name in ("gap", "residual")}
         steps, carried = np.zeros(loads.size, np.int64), np.zeros(loads.size, bool)
-        values = np.full((4, loads.size), np.nan)
+        values = np.full((5, loads.size), np.nan)
         turning, error = speeds != 0.0, 0.0
         touching, why = ~turning, None
         for backwards in (False, True):
@@ -183,6 +187,7 @@ class CollarCurves:
                 self.film.edge_pressure + np.maximum(rows[0][PRESSURE], rows[1][PRESSURE]),
                 rows[0][TORQUE] + rows[1][TORQUE],
                 np.minimum(rows[0][FILM], rows[1][FILM]),
+                rows[0][SIDE_FLOW] + rows[1][SIDE_FLOW],
             ]
             error = max(error, front.error, back.error)
         if why is not None and not np.any(carried | touching):
@@ -194,6 +199,7 @@ class CollarCurves:
             maximum_pressure=values[PRESSURE],
             friction_torque=values[TORQUE] * np.sign(speeds),
             friction_power=values[TORQUE] * np.abs(speeds),
+            side_flow=values[SIDE_FLOW],
             touching=touching,
             converged=carried,
             residual=np.where(carried, found["residual"], np.nan),
@@ -271,9 +277,9 @@ class _Series:
             self.error = max(self.error, *between)
 
     def __call__(self, gap: Array, some: NDArray[np.int64] | slice = slice(None)) -> Array:
-        """Table's rows (4, n) at gaps (n,), m, of `some` of the series."""
+        """Table's rows (5, n) at gaps (n,), m, of `some` of the series."""
         x, first, weights = np.log(gap), self._first[some], self._weights[:, some]
-        found = np.empty((4, gap.size))
+        found = np.empty((5, gap.size))
         for k in np.unique(first):
             here = first == k
             for number, column in enumerate(self._columns[k]):
@@ -292,16 +298,17 @@ class _Column:
 
     @cached_property
     def spline(self) -> CubicSpline:
-        """The four rows over the logarithm of the gap, times the powers that keep them even."""
+        """The rows over the logarithm of the gap, times the powers that keep them even."""
         return CubicSpline(np.log(self.gaps), self.values, axis=0)
 
     @cached_property
     def error(self) -> float:
         """Error of the spline through every other node at those between, an upper bound."""
-        coarse = CubicSpline(np.log(self.gaps[::2]), self.values[::2], axis=0)
+        values = self.values[:, :SIDE_FLOW]
+        coarse = CubicSpline(np.log(self.gaps[::2]), values[::2], axis=0)
         inner = slice(1, self.gaps.size - 1, 2)
         between = coarse(np.log(self.gaps[inner]))
-        return float(np.abs(between / self.values[inner] - 1.0).max())
+        return float(np.abs(between / values[inner] - 1.0).max())
 
 
 @lru_cache(maxsize=512)
@@ -341,12 +348,13 @@ def _most(row: ThrustBearing, film: Film, gap: float, sense: int, number: int) -
 
 
 def _solved(row: ThrustBearing, film: Film, gap: float, speed: float) -> Array:
-    """A node of the table: its four rows, times the powers that keep them even."""
+    """A node of the table: its rows, times the powers that keep them even."""
     state = row.pressure(gap, speed, film)
     if state.force <= 0.0:
         raise SolverError(f"ω = {speed:.3g} rad/s, gap {gap:.3g} m: the film carries no load")
     pressure, torque = state.maximum_pressure - film.edge_pressure, abs(state.friction_torque)
-    values = np.array([state.force, pressure, torque, state.minimum_film])
+    side = float(np.sum(state.side_flow))
+    values = np.array([state.force, pressure, torque, state.minimum_film, side])
     return np.asarray(values * gap**_POWERS * abs(speed) ** -_DRAGGED)
 
 
@@ -367,7 +375,7 @@ def _between(
     for k in range(-count, 0, max(count // _PROBES, 1)):
         exact = _solved(row, film, float(columns[0].gaps[k]), speed)
         values = _lagrange(np.array([1.5]))[:, 0] @ [one.values[k] for one in columns]
-        errors.append(np.abs(values / exact - 1.0).max())
+        errors.append(np.abs(values[:SIDE_FLOW] / exact[:SIDE_FLOW] - 1.0).max())
     return float(max(errors))
 
 

@@ -165,6 +165,10 @@ class Answer:
         Effects that are left out, and the share by which each moves the answer.
     band : Band or None
         By tolerances of the bearing's values; None where none has one.
+    case : str
+        Load case of an extreme; empty where it is of all.
+    time : float
+        Its time in that case, s; NaN where it is not known.
 
     Examples
     --------
@@ -183,6 +187,8 @@ class Answer:
     error: float | None
     left_out: Mapping[str, float] | None = None
     band: Band | None = None
+    case: str = ""
+    time: float = float("nan")
 
     @property
     def by_seeds(self) -> float:
@@ -286,7 +292,18 @@ def _of(
             band_of(tables, source.stage, str(bearing), source.quantity)
             if source.measured
             else None,
+            *_moment(source, table, str(bearing), values),
         )
+
+
+def _moment(source: _Source, table: xr.Dataset, bearing: str, values: Floats) -> tuple[str, float]:
+    """Load case of an extreme over all cases, and its time where that is known."""
+    if source.read not in (_largest, _smallest):
+        return "", float("nan")
+    at = np.nanargmax(values) if source.read is _largest else np.nanargmin(values)
+    case, name = str(table["case"].values[at]), f"{source.variable}_time"
+    known = name in table
+    return case, float(table[name].sel(bearing=bearing, case=case)) if known else float("nan")
 
 
 def _whole(

@@ -41,6 +41,8 @@ class Panel:
         A dashed line across.
     logarithmic : bool
         Scale of the ordinate.
+    dots : bool
+        Values stand alone: samples of a series that no line joins.
 
     Examples
     --------
@@ -54,6 +56,7 @@ class Panel:
     lines: dict[str, np.ndarray]
     level: float | None = None
     logarithmic: bool = False
+    dots: bool = False
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,10 @@ class Chart:
         Points, not lines, and all of them; `names` says what each is.
     names : sequence of str
         Of the points.
+    mark : float, optional
+        A place of the abscissa that is marked in every frame.
+    anchor : str
+        Name for links to it; empty without one.
 
     Examples
     --------
@@ -97,6 +104,8 @@ class Chart:
     samples: int = SAMPLES
     points: bool = False
     names: Sequence[str] = ()
+    mark: float | None = None
+    anchor: str = ""
 
     @property
     def markup(self) -> str:
@@ -111,6 +120,7 @@ class Chart:
                     "lines": [{"name": name, "y": _packed(y)} for name, (_, y) in drawn.items()],
                     "level": panel.level,
                     "log": panel.logarithmic,
+                    "dots": panel.dots,
                 }
             )
         first = next(iter(self.panels[0].lines.values()))
@@ -118,13 +128,16 @@ class Chart:
             "label": self.label,
             "x": _packed(thinned(self.x, first, samples)[0]),
             "panels": panels,
+            "mark": self.mark,
         }
         if self.points:
             data |= {"points": True, "names": [*self.names]}
         text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
         text = text.replace("</", "<\\/")  # a name must not end the element
+        name = f' id="{escape(self.anchor)}"' if self.anchor else ""
         return (
-            f'<div class="chart" tabindex="0" role="group" aria-label="{escape(self.caption)}">'
+            f'<div class="chart"{name} tabindex="0" role="group" '
+            f'aria-label="{escape(self.caption)}">'
             f'<script type="application/json">{text}</script></div>'
         )
 

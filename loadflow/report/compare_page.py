@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from loadflow.quantities import HOURS_PER_YEAR, percent, scale_of, three_digits
-from loadflow.report.page import write_filled
+from loadflow.report.charts import Chart
+from loadflow.report.moments import Moment, place_of
+from loadflow.report.page import asset, write_filled
 from loadflow.report.sketch import sketch
 
 
@@ -42,7 +45,9 @@ class Row:
     cells: tuple[Cell, ...]
 
 
-def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
+def write_comparison(
+    path: Path, data: Mapping[str, Any], pictures: Mapping[str, Sequence[Chart]] | None = None
+) -> Path:
     """Write the page of a comparison, whole or not at all.
 
     Parameters
@@ -51,13 +56,17 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         HTML file to write.
     data : mapping
         `loadflow.studies.compare_result.Comparison.as_dict`.
+    pictures : mapping of str to sequence of Chart, optional
+        By candidate, the moments that its numbers are from; its name and a full stop stand before
+        their anchors.
 
     Returns
     -------
     Path
         The file.
     """
-    candidates = data["candidates"]
+    candidates, pictures = data["candidates"], pictures or {}
+    shown = {chart.anchor for charts in pictures.values() for chart in charts}
     groups: dict[str, list[Row]] = {}
     silent = []
     behind: dict[str, list[str]] = {}
@@ -66,7 +75,7 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         behind.setdefault(one["references"], []).append(one["title"])
     for key, about in data["quantities"].items():
         rows = groups.setdefault(about["group"], [])
-        if (row := _row(key, data)) is None:
+        if (row := _row(key, data, shown)) is None:
             continue
         if (why := _tells_nothing(key, data)) is None:
             rows.append(row if above is None else _without_notes_of(above, row))
@@ -82,8 +91,10 @@ def write_comparison(path: Path, data: Mapping[str, Any]) -> Path:
         reasons=_reasons(groups),
         behind=behind.items(),
         sketch=sketch(data["shaft"]),
-        verdicts={one["name"]: [verdict_row(v) for v in one["verdicts"]] for one in candidates},
-        extremes={one["name"]: [*_extremes(one, data)] for one in candidates},
+        verdicts={one["name"]: [*_verdicts(one, shown)] for one in candidates},
+        extremes={one["name"]: [*_extremes(one, data, shown)] for one in candidates},
+        pictures=pictures,
+        asset=asset,
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
 
@@ -95,12 +106,45 @@ def _reasons(groups: Mapping[str, list[Row]]) -> dict[str, int]:
     return {why: k for k, why in enumerate(found, 1)}
 
 
-def _row(key: str, data: Mapping[str, Any]) -> Row | None:
+def moments_of(one: Mapping[str, Any], data: Mapping[str, Any]) -> dict[Moment, list[str]]:
+    """Where the numbers of a candidate are from, with the names of the numbers.
+
+    Parameters
+    ----------
+    one : mapping
+        `loadflow.studies.compare_result.Judged.as_dict`.
+    data : mapping
+        That of the comparison.
+    """
+    found: dict[Moment, list[str]] = {}
+    for key, number in one["numbers"].items():
+        if _is_extreme(number):
+            found.setdefault(_moment(number), []).append(data["quantities"][key]["name"])
+    for verdict in one["verdicts"]:
+        if verdict["case"]:
+            found.setdefault(_moment(verdict), []).append(verdict["quantity"])
+    return found
+
+
+def _moment(told: Mapping[str, Any]) -> Moment:
+    """Where a number, or a verdict, is from."""
+    time = math.nan if told["time"] is None else told["time"]
+    return Moment(told["case"], time, told.get("place") or place_of(told.get("subject", "")))
+
+
+def _verdicts(one: Mapping[str, Any], shown: Collection[str]) -> Iterator[dict[str, str]]:
+    """Verdicts on a candidate as rows of a table, each with its link."""
+    for verdict in one["verdicts"]:
+        picture = f"{one['name']}.{_moment(verdict).anchor}"
+        yield verdict_row(verdict) | {"link": f"#{picture}" if picture in shown else ""}
+
+
+def _row(key: str, data: Mapping[str, Any], shown: Collection[str]) -> Row | None:
     """A quantity of all candidates; None where none has it, or could have it."""
     about = data["quantities"][key]
     numbers = [one["numbers"].get(key) for one in data["candidates"]]
-    names = [f"{one['name']}.{key}" for one in data["candidates"]]
-    cells = [_cell(number, name, about["at_most"]) for number, name in zip(numbers, names)]
+    links = [_link(one, key, shown) for one in data["candidates"]]
+    cells = [_cell(number, link, about["at_most"]) for number, link in zip(numbers, links)]
     if all(cell.value == "" or _makes_no_sense(number) for cell, number in zip(cells, numbers)):
         return None
     told = (cell for cell, number in zip(cells, numbers) if number and number["value"] is not None)
@@ -135,8 +179,17 @@ def _makes_no_sense(number: Mapping[str, Any] | None) -> bool:
     return number is not None and number["value"] is None and number["note"].startswith("n/a: no ")
 
 
-def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
-    """A number of a candidate as it stands in the table; `name` is that of its extreme."""
+def _link(one: Mapping[str, Any], key: str, shown: Collection[str]) -> str:
+    """Where a number leads to: the picture of its moment, or its row among the extremes."""
+    number = one["numbers"].get(key)
+    if number is None or not _is_extreme(number):
+        return ""
+    picture = f"{one['name']}.{_moment(number).anchor}"
+    return f"#{picture}" if picture in shown else f"#{one['name']}.{key}"
+
+
+def _cell(number: dict[str, Any] | None, link: str, at_most: bool) -> Cell:
+    """A number of a candidate as it stands in the table, with the `link` to where it is from."""
     if number is None or (number["value"] is None and not number["note"]):
         return Cell("")
     if _makes_no_sense(number):
@@ -152,7 +205,6 @@ def _cell(number: dict[str, Any] | None, name: str, at_most: bool) -> Cell:
     sign = "≤" if at_most else "≥"
     limit = "" if number["limit"] is None else f"limit {sign} {short(number['limit'])}"
     state = {True: "good", False: "bad", None: ""}[number["holds"]]
-    link = f"#{name}" if _is_extreme(number) else ""
     where, note = _where(number | {"note": ""}), number["note"]
     missing = tuple((_BESIDE.get(what, what), why) for what, why in number["missing"].items())
     value = three_digits(number["value"])
@@ -229,14 +281,15 @@ def _is_extreme(number: Mapping[str, Any]) -> bool:
 
 
 def _extremes(
-    one: Mapping[str, Any], data: Mapping[str, Any]
-) -> Iterator[tuple[str, tuple[str, ...]]]:
-    """Name for links, and cells, of each extreme: with bearing, load case and time."""
+    one: Mapping[str, Any], data: Mapping[str, Any], shown: Collection[str]
+) -> Iterator[tuple[str, str, tuple[str, ...]]]:
+    """Name, link and cells of each extreme: with bearing, load case and time."""
     for key, number in one["numbers"].items():
         if _is_extreme(number):
             unit = "" if number["unit"] == "–" else number["unit"]
             yield (
                 f"{one['name']}.{key}",
+                _link(one, key, shown),
                 (
                     data["quantities"][key]["name"],
                     f"{three_digits(number['value'])} {unit}".rstrip(),

@@ -28,7 +28,8 @@ LARGEST_SVG = 200_000
 class Table:
     """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark.
 
-    `fold` hides it until its title is clicked; `note` stands below it.
+    `fold` hides it until its title is clicked; `note` stands below it. `links` leads from row and
+    column of a cell to a name within the page.
 
     Examples
     --------
@@ -44,6 +45,7 @@ class Table:
     bad: frozenset[int] = frozenset()
     fold: bool = False
     note: str = ""
+    links: Mapping[tuple[int, int], str] = field(default_factory=dict)
 
     @property
     def words(self) -> frozenset[int]:
@@ -181,7 +183,7 @@ def write_page(
         facts=facts,
         sections=sections,
         mark=mark,
-        asset=_asset,
+        asset=asset,
     )
 
 
@@ -256,7 +258,7 @@ _HEAD = 1000  # characters in which the mark is found
 _MARK = re.compile(r'<meta name="made-of" content="([^"]+)">')
 
 
-def _asset(name: str) -> str:
+def asset(name: str) -> str:
     """Text of a file that the page brings along."""
     return (ASSETS / name).read_text(encoding="utf-8")
 

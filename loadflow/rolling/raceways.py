@@ -17,7 +17,8 @@ from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import Array, Raceway
 from loadflow.rolling.geometry import OneClearance
 from loadflow.rolling.rating import life, modified_life, safety
-from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON, PointContact, hertz_point
+from loadflow.tribology.hertz import STEEL_MODULUS, STEEL_POISSON, hertz_point
+from loadflow.tribology.hertz_contact import PointContact
 
 
 @dataclass(frozen=True, kw_only=True)

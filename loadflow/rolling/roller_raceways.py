@@ -20,11 +20,11 @@ from loadflow.rolling.rating import capacity, life, modified_life, safety
 from loadflow.tribology.hertz import (
     STEEL_MODULUS,
     STEEL_POISSON,
-    LineContact,
     effective_modulus,
     hertz_line,
     line_factor,
 )
+from loadflow.tribology.hertz_contact import LineContact
 
 
 @dataclass(frozen=True, kw_only=True)

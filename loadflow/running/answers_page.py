@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 import xarray as xr
@@ -10,10 +10,13 @@ import xarray as xr
 from loadflow.planning.budget import Answer
 from loadflow.quantities import fitting_unit, four_digits, percent
 from loadflow.report import Table
+from loadflow.report.moments import Moment, links_to
 from loadflow.studies.tolerances import Band
 
 
-def answer_tables(found: list[Answer], tables: dict[str, xr.Dataset]) -> Iterator[Table]:
+def answer_tables(
+    found: list[Answer], tables: dict[str, xr.Dataset], shown: Collection[str] = ()
+) -> Iterator[Table]:
     """Each answer with its interval, band and error, then what tolerances do to each.
 
     Parameters
@@ -22,18 +25,27 @@ def answer_tables(found: list[Answer], tables: dict[str, xr.Dataset]) -> Iterato
         Of the run.
     tables : dict
         Its results by stage.
+    shown : collection of str, optional
+        Anchors of the moments that the page shows, to lead to.
     """
     if found:
-        yield _answers(found)
+        yield _answers(found, shown)
     yield from _tolerances(tables)
 
 
-def _answers(found: list[Answer]) -> Table:
+def moment_of(one: Answer) -> Moment | None:
+    """Where an answer is from; None where it is of all load cases."""
+    return Moment(one.case, one.time, one.bearing) if one.case else None
+
+
+def _answers(found: list[Answer], shown: Collection[str]) -> Table:
     banded = any(one.band is not None for one in found)
     heads = ["answer", "bearing", "value", "95 % interval by seeds"]
     heads += ["band by tolerances"] if banded else []
-    heads += ["error by models", "governed by", "left out"]
-    return Table("Answers", heads, [answer_row(one, banded) for one in found])
+    heads += ["error by models", "governed by", "left out", "load case"]
+    rows = [answer_row(one, banded) for one in found]
+    links = links_to(map(moment_of, found), len(heads) - 1, shown)
+    return Table("Answers", heads, rows, links=links)
 
 
 def answer_row(one: Answer, banded: bool = False) -> list[str]:
@@ -53,6 +65,7 @@ def answer_row(one: Answer, banded: bool = False) -> list[str]:
         "not measured" if one.error is None else f"≤ {percent(one.error)}",
         one.governed_by,
         missing or "-",
+        "-" if (moment := moment_of(one)) is None else moment.within,
     ]
 
 

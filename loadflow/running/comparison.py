@@ -18,11 +18,12 @@ from loadflow.errors import LoadflowError
 from loadflow.planning.accuracy import errors_beside
 from loadflow.planning.effects import Estimates
 from loadflow.planning.plan import Plan, make_plan
-from loadflow.report.compare_page import write_comparison
+from loadflow.report.compare_page import moments_of, write_comparison
 from loadflow.running.candidates import candidate_scene, candidates_for, chosen_of
 from loadflow.running.executor import HERE, Executor, Lost, executor
 from loadflow.running.folder import answered, finished_parts, part_file, read_manifest
 from loadflow.running.kept_numbers import keep, kept, key_of
+from loadflow.running.moments_page import moment_charts
 from loadflow.running.parts import digest_of
 from loadflow.running.result import Run
 from loadflow.running.runner import Report, run_on
@@ -126,9 +127,16 @@ def compare(
         answers = _answers(loads, finished, scene.as_built, how)
     found = compared(loads.scene, finished, answers, failures, without_place)
     done = Compared(loads.folder, found, failures)
-    write_comparison(done.page, found.as_dict())
+    told = found.as_dict()
+    pictures = {
+        one["name"]: [
+            *moment_charts(loads.folder / one["folder"], moments_of(one, told), f"{one['name']}.")
+        ]
+        for one in told["candidates"]
+    }
+    write_comparison(done.page, told, pictures)
     write_text(done.table, found.to_csv())
-    write_json(done.path / "compare.json", found.as_dict())
+    write_json(done.path / "compare.json", told)
     return done
 
 

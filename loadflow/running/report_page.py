@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,7 +14,7 @@ import xarray as xr
 
 import loadflow
 from loadflow.errors import InputError
-from loadflow.planning.budget import answers, more_seeds
+from loadflow.planning.budget import Answer, answers, more_seeds
 from loadflow.planning.seeds_wanted import of_run, sentences
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
@@ -39,6 +39,7 @@ from loadflow.running.folder import (
 )
 from loadflow.running.lifetime_page import lifetime_of_loads, lifetime_section
 from loadflow.running.loads_page import loads_section
+from loadflow.running.moments_page import anchors_of, moments_section
 from loadflow.running.profile_page import profile_section
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
@@ -89,8 +90,13 @@ def write_report(folder: Path, again: bool = False) -> Path:
     tables = results_of(folder) or {}
     force_of = forces_of(folder)
     lives, options = lifetime_of_loads(folder, scene, tables, force_of)
-    facts, first = _facts(scene, manifest, told_bores(tables)), _overview(scene, tables, manifest)
+    errors, effects = manifest.get("expected_errors", {}), manifest.get("effects", [])
+    found = answers(scene, tables, errors, effects)
+    moments = moments_section(folder, found, tables)
+    facts = _facts(scene, manifest, told_bores(tables))
+    first = _overview(scene, tables, manifest, found, anchors_of(moments))
     sections = [replace(first, facts=facts), *_sections(folder, scene, manifest, tables, force_of)]
+    sections[-1:-1] = [moments] if moments.pictures else []  # before what made it
     sections[2:2] = [lifetime_section(lives, options)] if lives else []  # behind overview and loads
     beside = folder / TABLES
     kept = {*write_tables(beside, sections), *write_lifetime_tables(lives, beside)}
@@ -219,13 +225,19 @@ def _sections(
     yield _provenance(manifest)
 
 
-def _overview(scene: Scene, tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> Section:
+def _overview(
+    scene: Scene,
+    tables: dict[str, xr.Dataset],
+    manifest: dict[str, Any],
+    found: list[Answer],
+    shown: Collection[str],
+) -> Section:
     failures = manifest.get("failures", {})
     caption = "Every load case over wind speed."
     pictures: list[Shown] = [_shaft_sketch(scene)]
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
-    found = answers(scene, tables, manifest.get("expected_errors", {}), manifest.get("effects", []))
-    notes = [*answer_tables(found, tables), *verdict_table(tables), *lifetime_table(tables)]
+    notes = [*answer_tables(found, tables, shown), *verdict_table(tables, shown)]
+    notes += lifetime_table(tables)
     notes += energy_table(tables)
     if failures:
         without = [[part, why] for part, why in failures.items()]

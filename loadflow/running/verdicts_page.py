@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 import xarray as xr
 
 from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, four_digits, scale_of
 from loadflow.report import Table
+from loadflow.report.moments import Moment, links_to, place_of
 from loadflow.running.answers_page import largest
 from loadflow.verdict import Verdict, from_dataset
 
@@ -33,15 +34,30 @@ def _failed(verdict: Verdict) -> str:
     return f"{what} ({verdict.subject}{numbers})"
 
 
-def verdict_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
-    """All verdicts of the run, the broken ones marked; nothing if there are none."""
+def verdict_table(tables: dict[str, xr.Dataset], shown: Collection[str] = ()) -> Iterator[Table]:
+    """All verdicts of the run, the broken ones marked; nothing if there are none.
+
+    Parameters
+    ----------
+    tables : dict
+        Results of the run by stage.
+    shown : collection of str, optional
+        Anchors of the moments that the page shows, to lead to.
+    """
     if "verdicts" not in tables:
         return
     found = [*from_dataset(tables["verdicts"])]
     rows = [_verdict_row(verdict) for verdict in found]
     bad = frozenset(k for k, verdict in enumerate(found) if not verdict.holds)
     heads = ["bearing", "what", "value", "limit", "margin", "verdict", "governed by", "limit from"]
-    yield Table("Verdicts", [*heads, "remarks"], rows, bad)
+    links = links_to(map(moment_of, found), heads.index("governed by"), shown)
+    yield Table("Verdicts", [*heads, "remarks"], rows, bad, links=links)
+
+
+def moment_of(verdict: Verdict) -> Moment | None:
+    """Where a verdict is from; None where it is of all load cases."""
+    place = place_of(verdict.subject)
+    return Moment(verdict.case, verdict.time, place) if verdict.case else None
 
 
 _FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere

@@ -22,7 +22,7 @@ from loadflow.errors import InputError
 from loadflow.readers import list_names, read_loads
 from loadflow.readers.loads import find_files
 from loadflow.scene.given_winds import wind_files
-from loadflow.scene.lifetime import check_per_year
+from loadflow.scene.lifetime import check_counts
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.storage import check_name
@@ -132,7 +132,8 @@ def list_cases(scene: Scene) -> list[Case]:
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
     try:
-        check_per_year(scene.lifetime, (case.dlc for case in distinct), loads.weights)
+        dlcs = (case.dlc for case in distinct)
+        check_counts(scene.lifetime, scene.wear.counts, dlcs, loads.weights)
     except ValueError as error:
         raise InputError(str(error)) from error
     return distinct if loads.weights == "given" else weighted(distinct, wind_class(scene))

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Annotated
 
 from pydantic import BaseModel, Field
 
+from loadflow.numerics.fields import none_such
 from loadflow.scene.section import Section
+from loadflow.wind.cases import by_load_case
 
 Count = Annotated[float, Field(ge=0, le=1e9)]
 
@@ -16,7 +18,8 @@ class Lifetime(Section, BaseModel):
     """How often a year starts, stops and faults happen, and how many years there are.
 
     ``per_year`` counts the events of a design load case over all its wind speeds, as IEC 61400-1
-    asks for those of 2.3, 2.4, 3.1 and 4.1. They take their number times their length of the
+    asks for those of 2.3, 2.4, 3.1 and 4.1; variants of one, such as 3.1a and 3.1b, share its
+    number evenly unless they have their own. They take their number times their length of the
     lifetime, with their damage and their energy; production and idling share the rest. Without a
     number an event has no share. Wear takes ``per_year`` times ``years`` of a load case for which
     ``wear.counts`` says nothing.
@@ -26,20 +29,29 @@ class Lifetime(Section, BaseModel):
     >>> from loadflow.scene import make_scene
     >>> scene = make_scene({"name": "life", "loads": {"dlc": ["1.2", "3.1"]},
     ...     "lifetime": {"per_year": {"3.1": 1000}}})
-    >>> scene.lifetime.count("3.1"), scene.lifetime.count("1.2")
-    (20000.0, None)
+    >>> scene.lifetime.per_year, scene.lifetime.years
+    ({'3.1': 1000.0}, 20.0)
     """
 
     per_year: dict[str, Count] = {}
     years: Annotated[float, Field(gt=0, le=1000)] = 20.0
 
-    def count(self, dlc: str) -> float | None:
-        """How often a design load case happens in the life; None where nothing is said."""
-        return self.years * self.per_year[dlc] if dlc in self.per_year else None
 
-
-def check_per_year(lifetime: Lifetime, there: Iterable[str], weights: str) -> None:
+def check_counts(
+    lifetime: Lifetime, starts: Mapping[str, float], there: Iterable[str], weights: str
+) -> None:
     """Refuse counts of load cases that are not there, or beside shares that files give.
+
+    Parameters
+    ----------
+    lifetime : Lifetime
+        With ``per_year``.
+    starts : mapping of str to float
+        ``wear.counts``.
+    there : iterable of str
+        Load cases of the scene.
+    weights : str
+        ``loads.weights``.
 
     Raises
     ------
@@ -47,11 +59,9 @@ def check_per_year(lifetime: Lifetime, there: Iterable[str], weights: str) -> No
         Names the key.
     """
     known = sorted(set(there))
-    for dlc in lifetime.per_year:
-        if dlc not in known:
-            raise ValueError(
-                f"lifetime.per_year: no load case {dlc!r}; there are {', '.join(known)}"
-            )
+    for key, told in (("lifetime.per_year", lifetime.per_year), ("wear.counts", starts)):
+        if missing := [dlc for dlc in told if not by_load_case({dlc: 1.0}, known)]:
+            raise ValueError(f"{key}: {none_such('load case', missing, known)}")
     if lifetime.per_year and weights == "given":
         raise ValueError(
             'lifetime.per_year: loads.weights = "given" takes the shares of the files; keep one'

@@ -29,7 +29,7 @@ from loadflow.scene.environment import Environment, surrounded
 from loadflow.scene.fitting_shaft import WithFittingBeams, fitted, with_fitting_beams
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
-from loadflow.scene.lifetime import Lifetime, check_per_year
+from loadflow.scene.lifetime import Lifetime, check_counts
 from loadflow.scene.loads import Loads, check_simulation
 from loadflow.scene.messages import beside_bearings, message
 from loadflow.scene.own_shaft import taken
@@ -190,7 +190,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
     @model_validator(mode="after")
     def _events_are_there(self) -> Self:
         if self.loads.source == "simulate":
-            check_per_year(self.lifetime, self.loads.dlcs, "rayleigh")
+            check_counts(self.lifetime, self.wear.counts, self.loads.dlcs, "rayleigh")
         return self
 
     @model_validator(mode="after")

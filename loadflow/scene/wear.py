@@ -26,8 +26,9 @@ class Wear(Section, BaseModel):
     ``{coefficient = …}``, m²/N, or Fleischer's ``{energy_density = …}``, J/m³. Every load case that
     starts, stops or stands wears the bore in what of its film is in contact while it turns:
     ``events`` times in the life, or as often as ``counts`` says of its design load case, shared by
-    its wind speeds as they blow. 20,000 starts are what a test rig of main bearings was given for
-    a life. Each is followed in at most ``samples`` steps, with the motion of ``[journal]``.
+    its wind speeds as they blow, and evenly by its variants (3.1a, 3.1b). 20,000 starts are what a
+    test rig of main bearings was given for a life. Each is followed in at most ``samples`` steps,
+    with the motion of ``[journal]``.
 
     ``running_in``, ``around``, ``across``, ``step`` and ``renewal`` are those of
     `loadflow.journal.Wear`.
@@ -36,7 +37,7 @@ class Wear(Section, BaseModel):
     --------
     >>> from loadflow.scene import make_scene
     >>> scene = make_scene({"name": "life", "wear": {"law": {"coefficient": 1e-17}}})
-    >>> scene.wear.law, scene.wear.count("3.1")
+    >>> scene.wear.law, scene.wear.events
     (Archard(coefficient=1e-17), 20000.0)
     """
 
@@ -50,10 +51,6 @@ class Wear(Section, BaseModel):
     step: Annotated[float, Field(gt=0, le=1)] = 0.1
     renewal: Annotated[float, Field(gt=0, le=10)] = 1.0
 
-    def count(self, dlc: str) -> float:
-        """How often a design load case happens in the life."""
-        return self.counts.get(dlc, self.events)
-
     def with_events(self, events: float) -> Self:
         """The same with another number of starts, stops and faults, also of those in ``counts``.
 
@@ -66,7 +63,7 @@ class Wear(Section, BaseModel):
         --------
         >>> from loadflow.scene import make_scene
         >>> scene = make_scene({"name": "life", "wear": {"law": {"coefficient": 1e-17}}})
-        >>> scene.wear.with_events(5000).count("3.1")
+        >>> scene.wear.with_events(5000).events
         5000.0
         """
         if self.law is None:

@@ -35,8 +35,9 @@ from loadflow.stages.stage import (
 )
 
 KEPT = table(
-    "minimum_film", "maximum_pressure", "friction_power", "converged", "residual", "iterations"
-)
+    "minimum_film", "maximum_pressure", "friction_power", "side_flow", "converged", "residual",
+    "iterations",
+)  # fmt: skip
 """What is kept of every sample: units and meaning."""
 
 WARM = table("temperature")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from loadflow.stages.film_of_bearing import shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
 from loadflow.stages.stage import Stage, always
-from loadflow.wind.cases import stands_or_starts
+from loadflow.wind.cases import by_load_case, stands_or_starts
 
 _AFTER = 0.25  # of the time in contact, for which a cycle is followed beyond it
 
@@ -37,7 +37,7 @@ def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) 
     loadflow.errors.SolverError
         A film in a worn bore without an answer.
     """
-    found = {}
+    found, counts = {}, counts_of(scene, (case.dlc for case in cases))
     for name in scene.journal.bearings:
         options = scene.journal.at(name)
         cycles, temperatures = [], []
@@ -48,7 +48,7 @@ def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) 
             loads, shaft = (inputs[case.name][key].load() for key in ("loads", "shaft"))
             cycle = touching_cycle(scene, options, film, loads, shaft.sel(bearing=name))
             if cycle is not None:
-                count = count_of(scene, case.dlc) * case.weight
+                count = counts[case.dlc] * case.weight
                 cycles.append(replace(cycle, count=count, name=case.name))
                 if "temperature" in film:
                     temperatures.append(float(film["temperature"].median()))
@@ -104,10 +104,13 @@ def touching_cycle(
     )
 
 
-def count_of(scene: Scene, dlc: str) -> float:
-    """How often a load case happens in the life."""
-    told = scene.lifetime.count(dlc)
-    return scene.wear.count(dlc) if told is None or dlc in scene.wear.counts else told
+def counts_of(scene: Scene, dlcs: Iterable[str]) -> dict[str, float]:
+    """How often each load case of a scene that starts, stops or stands happens in the life."""
+    there = set(dlcs)
+    yearly = by_load_case(scene.lifetime.per_year, there)
+    told = {dlc: scene.lifetime.years * number for dlc, number in yearly.items()}
+    told |= by_load_case(scene.wear.counts, there)
+    return {dlc: told.get(dlc, scene.wear.events) for dlc in filter(stands_or_starts, there)}
 
 
 def _between(when: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -119,19 +122,12 @@ def _told(found: WornBearing | None, cycles: list[Cycle]) -> xr.Dataset:
     """Worn contour and history of one bearing."""
     if found is None:
         return xr.Dataset(attrs={"cycles": 0})
-    about = label("m", "worn depth after the life")
-    places = {
-        "angle": ("angle", found.angle, label("rad", "from straight down, with the rotation")),
-        "z": ("z", found.z, label("m", "place across the width, from its middle")),
-    }
     counts = label("1", "how often in the life")
-    return found.history.assign(
-        depth_of_bore=(("angle", "z"), found.depth, about),
-        count=("cycle", np.array([cycle.count for cycle in cycles]), counts),
-    ).assign_coords(places).assign_attrs(
-        cycles=len(cycles), films=found.iterations, residual=found.residual, volume=found.volume,
-        work=found.work,
-    )  # fmt: skip
+    return (
+        found.to_dataset()
+        .assign(count=("cycle", np.array([cycle.count for cycle in cycles]), counts))
+        .assign_attrs(cycles=len(cycles))
+    )
 
 
 STAGE = Stage(

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_whole
-from loadflow.quantities import HOURS_PER_YEAR
+from loadflow.quantities import HOURS_PER_YEAR, three_digits
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
@@ -49,7 +49,7 @@ from loadflow.studies.compare_result import (
     without,
 )
 from loadflow.studies.compare_risks import rolling_risks, wear
-from loadflow.studies.compare_supply import supply_power
+from loadflow.studies.compare_supply import leaving, supply_power
 from loadflow.studies.compare_tilt import carries_thrust, shaft_tilt
 from loadflow.studies.compare_words import (
     bearings,
@@ -200,14 +200,8 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pressure = extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", against(pressure, verdicts, "largest film pressure", 1e-6)
     share = shares_of(run, table)
-    flow = 6e4 * table["mean_side_flow"].fillna(0.0).sum("bearing").values
-    collar = "without that of the collar" if "thrust" in run.tables else ""
-    told = _together("" if flow.any() else "no oil leaves the film", collar)
-    error = error_of(run, "journal.film", "side flow")
-    yield "oil_flow", replace(lifetime_mean(run, flow, share, groups, "l/min", told), error=error)
-    power, note = supply_power(table)
-    pump = lifetime_mean(run, power / 1e3, share, groups, "kW", _together(note, collar))
-    yield "pump", replace(pump, error=error)
+    collar = leaving(run.tables.get("thrust"), table["case"].values)
+    yield from _oil(run, table, collar)
     yield "whirl", whirl(run, table, groups)
     yield "mixed_time", mixed_time(run, table, share, groups)
     bores = _bores(run)
@@ -237,8 +231,26 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings.__getitem__)
     if film.place:
         yield "eccentricity_ratio", clearance_used(film, run.scene.thrust.bearings[film.place])
+    yield from _oil(run, table, np.zeros(table.sizes["case"]))
     yield "mixed_time", mixed_time(run, table, share, groups)
     yield from _lost(run, table, table["lost_power"], _OF_CONES)
+
+
+def _oil(run: Finished, table: xr.Dataset, collar: np.ndarray) -> Iterator[tuple[str, Number]]:
+    """Oil that leaves films and a collar beside them, m³/s, and the power to bring it back."""
+    groups, share = Groups.of(table), shares_of(run, table)
+    own = leaving(table, table["case"].values)
+    flows = {"journal.film" if "journal" in run.tables else "thrust.film": own}
+    flows |= {"thrust.film": collar} if collar.any() else {}
+    lost = {name: float((share * flow).sum()) for name, flow in flows.items()}
+    error = error_together(lost, {name: error_of(run, name, "side flow") for name in flows})
+    told = "" if own.any() else "no oil leaves the film"
+    if collar.any():
+        told = f"{three_digits(6e4 * lost['thrust.film'])} of it out of the collar"
+    flow = lifetime_mean(run, 6e4 * (own + collar), share, groups, "l/min", told)
+    yield "oil_flow", replace(flow, error=error)
+    power, note = supply_power(table, collar)
+    yield "pump", replace(lifetime_mean(run, power / 1e3, share, groups, "kW", note), error=error)
 
 
 def _bores(run: Finished) -> dict[str, xr.Dataset]:

@@ -117,8 +117,8 @@ QUANTITIES: dict[str, Compared] = {
         no_error="the ladder has not measured it",
         no_band="the temperature of the oil is a tolerance itself",
     ),
-    "oil_flow": Compared("oil that leaves the film", "l/min", _OIL, "journal"),
-    "pump": Compared("power to supply the oil", "kW", _OIL, "journal"),
+    "oil_flow": Compared("oil that leaves the films", "l/min", _OIL, "film"),
+    "pump": Compared("power to supply the oil", "kW", _OIL, "film"),
 }  # fmt: skip
 """What is compared, in the order of the page: groups, and rows in each."""
 

@@ -206,12 +206,12 @@ def without(rooms: Sequence[str]) -> dict[str, Number]:
     --------
     >>> without(["journal"])["rating_life"].note
     'n/a: no rolling elements'
-    >>> without(["thrust"])["pump"].note
-    'n/a: not computed for films of pads'
+    >>> without(["thrust"])["wear"].note
+    'n/a: films of pads know no asperities that wear them'
     """
     fails, elements = "no model of it for these bearings", "no rolling elements"
     films, turns = {"journal", "thrust"} & {*rooms}, "rolling" in rooms
-    pads = "not computed for films of pads" if films else "no film bearing"
+    pads = "films of pads know no asperities that wear them" if films else "no film bearing"
     why = {
         "all": fails,
         "film": fails if films else "no film bearing",

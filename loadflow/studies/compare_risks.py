@@ -18,11 +18,10 @@ from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
 from loadflow.stages.turning import SLOWEST, runs_throughout
-from loadflow.stages.wear import count_of
+from loadflow.stages.wear import counts_of
 from loadflow.studies.compare_factor import reduced_samples
 from loadflow.studies.compare_result import STARTS_ALONE, Number
 from loadflow.studies.seed_intervals import Groups, interval
-from loadflow.wind.cases import stands_or_starts
 
 WORN_SHARE = 0.1
 """Of the radial clearance that may wear off; assumed."""
@@ -85,9 +84,9 @@ def events(scene: Scene, table: xr.Dataset) -> str:
     table : xarray.Dataset
         Any result over ``case``, with `dlc`.
     """
-    rubs = [dlc for dlc in sorted({*table["dlc"].values.tolist()}) if stands_or_starts(dlc)]
-    told = (f"{count_of(scene, dlc):,.0f} of DLC {dlc}" for dlc in rubs)
-    return f"{', '.join(told)} in the life" if rubs else "no start, stop or fault in this run"
+    counts = sorted(counts_of(scene, table["dlc"].values.tolist()).items())
+    told = (f"{number:,.0f} of DLC {dlc}" for dlc, number in counts)
+    return f"{', '.join(told)} in the life" if counts else "no start, stop or fault in this run"
 
 
 def _depth(bore: xr.Dataset) -> float:

@@ -13,9 +13,10 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 from loadflow.scene.cases import speed_shares
 from loadflow.wind import iec
-from loadflow.wind.cases import row_of
+from loadflow.wind.cases import by_load_case, row_of
 
 YEAR = 365.25 * 86_400.0
 PRODUCTION = ("1.1", "1.2")
@@ -52,7 +53,8 @@ def lifetime_shares(
     operating : tuple of float
         Cut-in and cut-out, m/s.
     per_year : mapping of str to float
-        How often a year a design load case happens, over all its wind speeds.
+        How often a year a design load case happens, over all its wind speeds and variants
+        (`loadflow.wind.cases.by_load_case`).
 
     Returns
     -------
@@ -65,8 +67,8 @@ def lifetime_shares(
         No case has a share, the events take more than a year, or `per_year` names a load case that
         is not there or a number that is not >= 0.
     """
-    counted = dict(per_year or {})
-    _check_counts(counted, set(dlcs))
+    _check_counts(per_year or {}, set(dlcs))
+    counted = by_load_case(per_year or {}, dlcs)
     names, speeds = np.array(dlcs, dtype=str), np.array(wind_speeds, dtype=float)
 
     def within(group: Sequence[str]) -> np.ndarray:
@@ -123,9 +125,7 @@ def without_share(dlcs: Sequence[str], shares: np.ndarray) -> list[str]:
 
 def _check_counts(per_year: Mapping[str, float], there: set[str]) -> None:
     for dlc, number in per_year.items():
-        if dlc not in there:
-            raise InputError(
-                f"per_year: no load case {dlc!r}; there are {', '.join(sorted(there))}"
-            )
+        if not by_load_case({dlc: number}, there):
+            raise InputError(f"per_year: {none_such('load case', [dlc], sorted(there))}")
         if not 0 <= number < np.inf:
             raise InputError(f"per_year: {dlc} = {number}; allowed: >= 0")

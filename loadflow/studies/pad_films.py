@@ -24,8 +24,8 @@ class PadFilms:
 
     Attributes
     ----------
-    minimum_film, maximum_pressure, friction_power : array (n,)
-        m; Pa, absolute; W.
+    minimum_film, maximum_pressure, friction_power, side_flow : array (n,)
+        m; Pa, absolute; W; m³/s.
     touching : array of bool (n,)
         Whether the surfaces touch.
     temperature : array (n,)
@@ -35,6 +35,7 @@ class PadFilms:
     minimum_film: Array
     maximum_pressure: Array
     friction_power: Array
+    side_flow: Array
     touching: NDArray[np.bool_]
     temperature: Array
 
@@ -105,6 +106,7 @@ def pad_films(
         found.minimum_film,
         found.maximum_pressure,
         found.friction_power,
+        found.side_flow,
         found.touching,
         found.temperature,
     )
@@ -113,7 +115,7 @@ def pad_films(
 def _on_grid(
     bearing: AnyAxial, force: Array, moment: Array, speed: Array, tilt: Array | None
 ) -> PadFilms:
-    values, touching = np.full((4, speed.size), np.nan), np.zeros(speed.size, bool)
+    values, touching = np.full((5, speed.size), np.nan), np.zeros(speed.size, bool)
     for k in range(speed.size):
         turned = None if tilt is None else tilt[k]
         try:
@@ -123,7 +125,10 @@ def _on_grid(
             continue
         touching[k] = answer.minimum_film < bearing.contact_film
         if not touching[k]:
-            values[:3, k] = answer.minimum_film, answer.maximum_pressure, answer.friction_power
-            values[3, k] = getattr(answer, "temperature", np.nan)  # cones have no heat
-    film, pressure, power, temperature = values
-    return PadFilms(film, pressure, power, touching, temperature)
+            values[:4, k] = [
+                getattr(answer, name)
+                for name in ("minimum_film", "maximum_pressure", "friction_power", "side_flow")
+            ]
+            values[4, k] = getattr(answer, "temperature", np.nan)  # cones have no heat
+    film, pressure, power, flow, temperature = values
+    return PadFilms(film, pressure, power, flow, touching, temperature)

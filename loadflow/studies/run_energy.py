@@ -32,8 +32,8 @@ def run_energy(scene: Scene, tables: Mapping[str, xr.Dataset]) -> xr.Dataset | N
         `rotor_power` (case), W; of journal, thrust and rolling bearings, each over its name and
         case, `journal_loss` … (W; of journal bearings with the supply, as the table) and
         `journal_efficiency` … (what the bearing leaves of the rotor's power; NaN without power);
-        of journal bearings `journal_flow` (m³/s, out of the film) and `journal_oil_rise`: by how
-        much, K, this flow warms where it carries the whole loss.
+        of films `journal_flow` … (m³/s, out of them) and of journal bearings `journal_oil_rise`: by
+        how much, K, this flow warms where it carries the whole loss.
     """
     rooms = {stage: name for stage, name in ROOMS.items() if stage in tables}
     if not rooms or "rotor_power" not in tables.get("loads", ()):
@@ -51,12 +51,15 @@ def run_energy(scene: Scene, tables: Mapping[str, xr.Dataset]) -> xr.Dataset | N
             left, name, "1", "share of the rotor's power that is left"
         )
         if "mean_side_flow" in table:
+            found[f"{name}_flow"] = _of(
+                table["mean_side_flow"], name, "m^3/s", "flow out of the film"
+            )
+        if stage == "journal":
             flow = table["mean_side_flow"]
             warmed = [scene.journal.at(str(place)).volume_heat for place in table["bearing"].values]
             carried = flow * xr.DataArray(warmed, dims="bearing")
             rise = (loss / carried).where(carried > 0)
             told = "rise of the oil that carries the loss"
-            found[f"{name}_flow"] = _of(flow, name, "m^3/s", "flow out of the film")
             found[f"{name}_oil_rise"] = _of(rise, name, "K", told)
     return xr.Dataset(found).drop_vars("bearing", errors="ignore")
 

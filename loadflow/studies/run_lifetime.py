@@ -15,6 +15,7 @@ from loadflow.stages.labelling import label
 from loadflow.stages.rolling import hours_together, system_hours
 from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares, of_load_cases
 from loadflow.wind import iec
+from loadflow.wind.cases import by_load_case
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -70,9 +71,7 @@ def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     if scene.loads.weights == "given" and scene.loads.source == "files":
         given = table["weight"].values.astype(float)
         return given / given.sum() if given.sum() > 0 else None
-    per_year = {
-        dlc: number for dlc, number in scene.lifetime.per_year.items() if dlc in table["dlc"].values
-    }
+    per_year = by_load_case(scene.lifetime.per_year, table["dlc"].values.tolist())
     lengths = table["length"].values if per_year else np.ones(table.sizes["case"])
     try:
         return lifetime_shares(
@@ -189,6 +188,6 @@ def energy_per_year(
     by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
     if by_wind and of_load_cases(dlcs, PRODUCTION) and not of_load_cases(dlcs, IDLING):
         below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
-        produces = ~np.isin(table["dlc"].values, [*scene.lifetime.per_year])
+        produces = ~np.isin(table["dlc"].values, [*by_load_case(scene.lifetime.per_year, dlcs)])
         seconds[produces] *= float(below[1] - below[0])
     return np.asarray((power * xr.DataArray(share * seconds, dims="case")).sum("case").values)

@@ -37,6 +37,7 @@ from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.studies.compare_risks import LIGHT
+from loadflow.studies.compare_supply import FEED
 from loadflow.studies.design_point import allowed_pressure, judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
 from loadflow.studies.load_spectrum import STANDING_SHARE
@@ -249,7 +250,7 @@ def _of_films(journal: Journal, films: Mapping[str, Films], seconds: float) -> d
         "friction": sums["power"],
         "energy": sums["power"] + sums["pump"],
         "oil_flow": sums["oil_flow"],
-        "pump": sums["pump"] or sums["oil_flow"],  # unstated, it goes with what leaves the films
+        "pump": sums["pump"] or FEED * sums["oil_flow"],
         "mixed_time": max(mixed) * seconds / 3600,
         "tilt": 1.0 / min(thinnest),
     }
@@ -305,17 +306,17 @@ def _of_pads(
 ) -> dict[str, float]:
     """Films of pads at rest, each as warm as it makes itself, and tilted where the shaft is.
 
-    What they lose is added to that of the journal bearings beside them.
+    What they lose, and the oil that leaves them, is added to that of the journal bearings beside.
     """
-    films, pressures, rough, used, margins, power = [], [], [], [], [], 0.0
+    films, pressures, rough, used, margins, power, flow = [], [], [], [], [], 0.0, 0.0
     for place, bearing in thrust.bearings.items():
         samples = _samples_of_pads(thrust, bearing, spectrum[place].to_dataset())
         span = spans.get(place)
         answer = pad_films(bearing, against_bore(samples), span=span)
         weight = samples["weight"].values * np.isfinite(answer.friction_power)
-        power += float(spectrum[place]["weight"].sum()) * (
-            _mean(answer.friction_power, weight) / max(weight.sum(), 1e-300)
-        )
+        whole = float(spectrum[place]["weight"].sum()) / max(weight.sum(), 1e-300)
+        power += whole * _mean(answer.friction_power, weight)
+        flow += whole * _mean(answer.side_flow, weight)
         films.append(answer.thinnest())
         rough.append(films[-1] / bearing.contact_film)
         used.append(1.0 - films[-1] / bearing.clearance)
@@ -324,6 +325,7 @@ def _of_pads(
     margin = min(margins, default=math.nan)
     if beside:
         lost = {name: beside[name] + power for name in ("friction", "energy")}
+        lost |= {"oil_flow": beside["oil_flow"] + flow, "pump": beside["pump"] + FEED * flow}
         lost["load_factor"] = float(np.nanmin([beside["load_factor"], margin]))
         return {"thrust_film": min(films), "thrust_pressure": max(pressures)} | lost
     return {
@@ -334,6 +336,8 @@ def _of_pads(
         "load_factor": margin,
         "friction": power,
         "energy": power,
+        "oil_flow": flow,
+        "pump": FEED * flow,
         "tilt": 1.0 / max(min(films), 1e-300),
     }
 

@@ -12,7 +12,6 @@ ISO/TS 16281:2008, load deflection of a roller slice.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -21,75 +20,12 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_one_of
 from loadflow.tribology.contact_ellipse import ellipse
+from loadflow.tribology.hertz_contact import LineContact, PointContact
 
 STEEL_MODULUS = 210e9
 STEEL_POISSON = 0.3
 
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class PointContact:
-    """Elliptical contact of two bodies.
-
-    Attributes
-    ----------
-    stiffness : ndarray
-        Contact stiffness factor K of ``force = K * approach**1.5``, N/m^1.5, (3.5).
-    approach : ndarray
-        Mutual approach of the two bodies, m, (2.5).
-    pressure : ndarray
-        Largest (central) pressure, Pa, (2.1).
-    semi_axes : tuple of ndarray
-        Major and minor semi-axis of the contact ellipse, m.
-    ellipticity : ndarray
-        Major over minor semi-axis, at least 1.
-    coefficient : ndarray
-        Hertz's coefficient ψ/ξ of the approach (δ* of Harris).
-
-    Examples
-    --------
-    >>> from loadflow.tribology import hertz_point
-    >>> contact = hertz_point(50.0, 50.0, 25.0, 25.0, force=100.0)
-    >>> round(float(contact.pressure) / 1e6), round(float(contact.ellipticity), 3)
-    (1132, 1.0)
-    """
-
-    stiffness: Array
-    approach: Array
-    pressure: Array
-    semi_axes: tuple[Array, Array]
-    ellipticity: Array
-    coefficient: Array
-
-
-@dataclass(frozen=True)
-class LineContact:
-    """Contact of two bodies along a line.
-
-    Attributes
-    ----------
-    stiffness : ndarray
-        Tangent stiffness d(force)/d(approach), N/m.
-    approach : ndarray
-        Mutual approach of the two bodies, m.
-    pressure : ndarray
-        Largest pressure, Pa.
-    semi_width : ndarray
-        Half the width of the contact strip, m.
-
-    Examples
-    --------
-    >>> from loadflow.tribology import hertz_line
-    >>> contact = hertz_line(100.0, 0.0, length=0.03, force=2e4)
-    >>> round(float(contact.pressure) / 1e6), round(float(contact.semi_width) * 1e6)  # MPa, µm
-    (1565, 271)
-    """
-
-    stiffness: Array
-    approach: Array
-    pressure: Array
-    semi_width: Array
 
 
 def effective_modulus(

@@ -6,6 +6,7 @@ realisations of some cases) the row follows common design load bases and can be 
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from math import ceil, floor
 from string import ascii_lowercase
@@ -195,6 +196,46 @@ def event_of(dlc: str) -> Event:
     """
     row = row_of(dlc)
     return EVENTS_IN_WORDS.get(dlc, "none") if row is None else row.events[0]
+
+
+def by_load_case(told: Mapping[str, float], there: Iterable[str]) -> dict[str, float]:
+    """Numbers of events by the load cases that are there, of what is told of some.
+
+    A number is that of a load case with all its variants: those of which nothing is told share it
+    evenly. Words of one event are the same load case. What is not there is left out.
+
+    Parameters
+    ----------
+    told : mapping of str to float
+        By load case, variant or word.
+    there : iterable of str
+        Load cases, variants and words that there are.
+
+    Returns
+    -------
+    dict of str to float
+        By those that are there.
+
+    Examples
+    --------
+    >>> there = ["3.1a", "3.1b", "4.1a", "startup"]
+    >>> by_load_case({"3.1": 900.0, "4.1b": 50.0, "start": 7.0}, there)
+    {'3.1a': 450.0, '3.1b': 450.0, 'startup': 7.0}
+    """
+    names = sorted(set(there))
+    found: dict[str, float] = {}
+    for dlc, number in told.items():
+        own = [name for name in names if name == dlc or (name not in told and _same(name, dlc))]
+        found |= dict.fromkeys(own, number / max(len(own), 1))
+    return found
+
+
+def _same(name: str, dlc: str) -> bool:
+    """Whether a name is a variant of a load case, or a word that says the same event."""
+    row = row_of(name)
+    if row is None:
+        return dlc in EVENTS_IN_WORDS and EVENTS_IN_WORDS.get(name) == EVENTS_IN_WORDS[dlc]
+    return row.dlc == dlc
 
 
 def factor_of_maximum(dlc: str) -> float:

@@ -27,6 +27,7 @@ from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
 from loadflow.quantities import three_digits
 from loadflow.report.compare_page import _row, short, write_comparison
+from loadflow.report.moments import Moment, moment_chart
 from loadflow.report.sketch import sketch
 from loadflow.running import kept_numbers
 from loadflow.running.candidates import candidate_scene, candidates_for
@@ -43,6 +44,7 @@ from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
+from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
 from loadflow.studies.compare import in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
@@ -59,7 +61,7 @@ from loadflow.studies.compare_result import (
     missing,
 )
 from loadflow.studies.compare_risks import events, rolling_risks, wear
-from loadflow.studies.compare_supply import supply_power
+from loadflow.studies.compare_supply import leaving, supply_power
 from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.verdict import Verdict
@@ -382,6 +384,17 @@ def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(
     assert shares[0] == pytest.approx(shares[1])
     states = {"mean_supply_power": ("bearing", [2.0, 3.0]), "mean_side_flow": ("bearing", [1, 1])}
     assert supply_power(xr.Dataset(states)) == (5.0, "")
+    power, note = supply_power(xr.Dataset(states), 1e-3)  # m³/s of a collar, which has no supply
+    assert power == pytest.approx(5.0 + 1e5 * 1e-3)
+    assert note == "what leaves the collar at 0.1 MPa, assumed; not in the energy"
+
+
+def test_oil_of_pads_is_that_of_each_load_case_by_its_name():
+    flow = ("case", "bearing"), [[1.0, 2.0], [np.nan, 4.0]]
+    table = xr.Dataset({"mean_side_flow": flow}, {"case": ["b", "a"]})
+    assert leaving(table, np.array(["a", "b", "c"])).tolist() == [4.0, 3.0, 0.0]
+    assert leaving(None, np.array(["a", "b"])).tolist() == [0.0, 0.0]
+    assert supply_power(table)[0].tolist() == [3e5, 4e5]
 
 
 def test_the_references_behind_the_models_are_told_once_for_all_that_share_them(found):
@@ -506,7 +519,7 @@ def test_asked_starts_are_those_that_wear_follows_and_need_a_law(cube, tmp_path,
     seen = []
 
     def stop(scene, *_):
-        seen.append(scene.wear.count("3.1"))
+        seen.append(counts_of(scene, ["3.1"])["3.1"])
         raise InputError("seen")
 
     monkeypatch.setattr("loadflow.running.comparison.candidates_for", stop)
@@ -650,7 +663,8 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
     page = found.page.read_text(encoding="utf-8")
     assert found.comparison.conclusion in page
     assert found.comparison.reservations in page
-    assert "nan" not in page.lower().replace("tenance", "")
+    shown = re.sub(r"<(script|style).*?</\1>", "", page, flags=re.DOTALL)
+    assert "nan" not in shown.lower().replace("tenance", "")
     parser = Links()
     parser.feed(page)
     for link in parser.links:
@@ -661,7 +675,40 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
     for one in found.comparison.candidates:  # each number of a load case leads to it
         for key, number in one.numbers.items():
             extreme = bool(number.case) and math.isfinite(number.value)
-            assert (f"#{one.name}.{key}" in parser.links) == extreme, key
+            time = "" if math.isnan(number.time) else f"-{number.time:.3f}"
+            assert (f"{one.name}.at-{number.case}-{number.place}{time}" in parser.ids) == extreme
+            row = re.search(rf'<tr id="{re.escape(f"{one.name}.{key}")}">.*?</tr>', page)
+            assert (row is not None) == extreme, key
+            assert row is None or f'href="#{one.name}.at-{number.case}-' in row[0]
+
+
+def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series():
+    time = np.arange(0.0, 120.0, 0.1)
+    force = np.stack([0.0 * time, 3e5 + time, 4e5 + 0.0 * time])
+    series = xr.Dataset(
+        {"speed": ("time", 1.2 + 0.0 * time, {"units": "rad/s"}),
+         "force": (("axis", "time"), force, {"units": "N"}),
+         "moment": (("axis", "time"), 0.0 * force, {"units": "N m"})},
+        {"time": time},
+    )  # fmt: skip
+    film = xr.Dataset(
+        {"time": ("sample", [70.3, 2.0, 50.01]),
+         "minimum_film": ("sample", [20e-6, 1e-6, 30e-6], {"units": "m"})},
+    )  # fmt: skip
+    chart = moment_chart(Moment("a", 60.0, "N"), series, {"journal bearing": film}, "c")
+    assert (chart.x[0], chart.x[-1]) == pytest.approx((45.0, 75.0))
+    assert chart.mark == 60.0
+    across, _speed, thin = chart.panels  # neither thrust nor moment: no lines of zeros
+    assert [*across.lines] == ["across the shaft"]
+    at = np.flatnonzero(np.isclose(chart.x, 60.0))
+    assert across.lines["across the shaft"][at] == pytest.approx(np.hypot(3e2 + 0.06, 4e2))
+    known = np.isfinite(thin.lines["journal bearing"])
+    assert chart.x[known] == pytest.approx([50.0, 70.3])  # the sample at 2 s is out of sight
+    assert thin.lines["journal bearing"][known] == pytest.approx([30.0, 20.0])
+    assert thin.dots
+    whole = moment_chart(Moment("a", math.nan, "N"), series, {}, "c")
+    assert whole.mark is None
+    assert whole.x.size == time.size
 
 
 def judged_of(name, energy, kind="rolling", **own):
@@ -733,7 +780,7 @@ def listed(key, number):
 def test_a_limit_says_on_which_side_of_it_a_number_must_stay(key, said):
     numbers = {key: listed(key, Number(0.9, "–", limit=0.95, holds=True))}
     data = {"quantities": named_quantities()}
-    row = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]})
+    row = _row(key, data | {"candidates": [{"name": "one", "numbers": numbers}]}, ())
     assert row.limit == said
     [cell] = row.cells
     assert (cell.value, cell.state, cell.limit) == ("0.900", "good", "")
@@ -753,7 +800,7 @@ def test_limits_that_differ_stand_in_each_cell():
         {"name": name, "numbers": {key: listed(key, Number(20.0, "µm", limit=limit, holds=True))}}
         for name, limit in (("one", 10.0), ("two", 13.8))
     ]
-    row = _row(key, data | {"candidates": both})
+    row = _row(key, data | {"candidates": both}, ())
     assert row.limit == ""
     assert [cell.limit for cell in row.cells] == ["limit ≥ 10", "limit ≥ 13.8"]
 
@@ -767,7 +814,7 @@ def test_the_limit_of_some_stands_beside_them_alone():
             {"name": name, "numbers": {key: listed(key, number)}}
             for name, number in (("bore", held), ("pads", free))
         ]
-        row = _row(key, data | {"candidates": both})
+        row = _row(key, data | {"candidates": both}, ())
         assert (row.limit, [cell.limit for cell in row.cells]) == ("", ["limit ≤ 0.95", ""])
 
 
@@ -933,10 +980,15 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
     # the copy says in its title how wide the page is: wide tables scroll inside it
     probe = (
         "<script>addEventListener('load', () => {"
+        "const link = document.querySelector('.main td a[href*=\".at-\"]'); link.click();"
+        "setTimeout(() => {"
         "const drawn = document.querySelectorAll('svg.sketch rect').length;"
         "const wide = document.documentElement.scrollWidth > innerWidth;"
-        "document.title = `drawn ${drawn} wide ${wide}`;"
-        "});</script></body>"
+        "const frames = document.getElementById(link.hash.slice(1)).querySelectorAll('canvas');"
+        "const top = document.querySelector(link.hash.replaceAll('.', '\\\\.')).parentElement;"
+        "const seen = Math.abs(top.getBoundingClientRect().top) < innerHeight;"
+        "document.title = `drawn ${drawn} wide ${wide} frames ${frames.length > 2} seen ${seen}`;"
+        "}, 500)});</script></body>"
     )
     copy = tmp_path / "probe.html"
     text = found.page.read_text(encoding="utf-8")
@@ -951,7 +1003,7 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
         ],
         capture_output=True, text=True, timeout=120, check=True,
     )  # fmt: skip
-    assert "<title>drawn 6 wide false</title>" in done.stdout
+    assert "<title>drawn 6 wide false frames true seen true</title>" in done.stdout
     assert "CONSOLE" not in done.stderr
 
 

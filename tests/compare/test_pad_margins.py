@@ -202,7 +202,7 @@ def margins_of_lost_films(monkeypatch, films):
 
 def test_films_that_carry_nowhere_when_they_are_solved_again_have_no_margin(monkeypatch):
     none = np.full(40, np.nan)
-    lost = PadFilms(none, none, none, np.ones(40, bool), none)
+    lost = PadFilms(none, none, none, none, np.ones(40, bool), none)
     found = margins_of_lost_films(monkeypatch, lambda *about: lost)
     assert [math.isnan(one.factor) for one in found] == [True, True]
     assert all("in N2 (gust): solved again, its film carries" in one.uncounted for one in found)

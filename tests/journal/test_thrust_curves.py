@@ -29,7 +29,9 @@ def film_of(law=None):
 
 def exact(collar, film):
     found = [collar.equilibrium(f, w, film) for f, w in zip(FORCES, SPEEDS)]
-    names = ("minimum_film", "maximum_pressure", "friction_torque", "friction_power")
+    names = (
+        "minimum_film", "maximum_pressure", "friction_torque", "friction_power", "side_flow",
+    )  # fmt: skip
     return {name: np.array([getattr(one, name) for one in found]) for name in names}
 
 

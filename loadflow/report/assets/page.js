@@ -35,13 +35,22 @@
     };
   }
 
+  function mark(place) { // dashed line from top to bottom
+    return plot => {
+      const x = plot.valToPos(place, "x", true), { left, width, top, height } = plot.bbox, c = plot.ctx;
+      if (x < left || x > left + width) return;
+      c.save(); c.setLineDash([8, 6]); c.strokeStyle = "#d1612b"; c.lineWidth = 2;
+      c.beginPath(); c.moveTo(x, top); c.lineTo(x, top + height); c.stroke(); c.restore();
+    };
+  }
+
   function options(box, data, panel, k) {
     const last = data.points || k === data.panels.length - 1, many = columns(box, data);
     const wide = data.points;
     const series = panel.lines.map((line, i) => ({
       label: line.name || "value", stroke: COLOURS[i % COLOURS.length], width: 1, spanGaps: false,
       value: (_, v) => rounded(v),
-      ...(data.points ? { paths: () => null, points: { show: true, size: 5, fill: COLOURS[i % COLOURS.length] } } : { points: { show: false } }),
+      ...(data.points || panel.dots ? { paths: () => null, points: { show: true, size: data.points ? 5 : 4, fill: COLOURS[i % COLOURS.length] } } : { points: { show: false } }),
     }));
     return {
       width: width(box, many), height: data.points ? 230 : 158 + (last ? 17 : 0),
@@ -53,7 +62,7 @@
         { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 }, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
       ],
       series: [{ label: data.points ? "of" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
-      hooks: panel.level != null ? { draw: [level(panel.level)] } : {},
+      hooks: { draw: [...(panel.level != null ? [level(panel.level)] : []), ...(data.mark != null ? [mark(data.mark)] : [])] },
     };
   }
 
@@ -135,7 +144,9 @@
   function open() {
     const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
     for (let one = target; one; one = one.parentElement) if (one.tagName === "DETAILS") one.open = true;
-    if (target) target.scrollIntoView();
+    if (!target) return;
+    drawVisible(); // charts that open above it would push it out of sight
+    target.scrollIntoView({ block: target.tagName === "TR" ? "center" : "start" });
   }
   addEventListener("hashchange", open);
   document.addEventListener("toggle", drawVisible, true);

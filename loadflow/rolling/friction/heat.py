@@ -2,26 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.convergence import Convergence
+from loadflow.numerics.shown import Shown, in_words
+from loadflow.quantities import CELSIUS, Quantity
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_losses import roller_friction
 from loadflow.rolling.results import ContactResult
 
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+
+_SHOWN = {
+    "temperature": Quantity("T", "K", "temperature of oil and bearing"),
+    "power": Quantity("P", "W", "friction at that temperature"),
+    "converged": Quantity("", "1", "whether loss and cooling are equal"),
+    "residual": Quantity("", "1", "power not balanced over the loss of the cold bearing"),
+    "iterations": Quantity("", "1", "steps"),
+}
+
 _HOTTEST = 200.0  # K above the surroundings that are searched
 _STEP = 10.0  # K, of the search where the loss may overtake the cooling again
 
 
-@dataclass(frozen=True)
-class HeatBalance:
+@dataclass(frozen=True, repr=False)
+class HeatBalance(Shown):
     """State in which mean loss and cooling are equal.
 
     Attributes
@@ -50,6 +64,47 @@ class HeatBalance:
     temperature: float
     friction: BearingFriction
     convergence: Convergence
+
+    @property
+    def power(self) -> NDArray[np.float64]:
+        """Friction of each load case at that temperature, W."""
+        return self.friction.power
+
+    @property
+    def converged(self) -> bool:
+        """Whether loss and cooling are equal."""
+        return self.convergence.converged
+
+    @property
+    def residual(self) -> float:
+        """Power that is not balanced, over the loss of the bearing as cold as its surroundings."""
+        return self.convergence.residual
+
+    @property
+    def iterations(self) -> int:
+        """Steps of the search."""
+        return self.convergence.iterations
+
+    def shown_quantities(self) -> Mapping[str, Quantity]:
+        """Quantities of a heat balance."""
+        return _SHOWN
+
+    def to_dataset(self) -> xr.Dataset:
+        """Temperature and search beside the friction at that temperature, with units."""
+        alone = ((name, getattr(self, name), _SHOWN[name]) for name in _SHOWN if name != "power")
+        return self.friction.to_dataset().assign(
+            {name: ((), value, about.attributes) for name, value, about in alone}
+        )
+
+    def plot(self) -> Figure:
+        """Draw the friction at that temperature, as `BearingFriction.plot`."""
+        return self.friction.plot()
+
+    def __repr__(self) -> str:
+        power, unit = in_words(np.unique([self.power.min(), self.power.max()]), "W")
+        said = "converged" if self.converged else "not converged"
+        warm = self.temperature - CELSIUS
+        return f"<HeatBalance, {warm:.4g} °C with {power.replace(', ', ' … ')} {unit}, {said}>"
 
 
 def balanced_temperature(
