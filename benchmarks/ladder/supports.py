@@ -186,7 +186,7 @@ def compare(bench: Bench, case: Case, loads: xr.Dataset) -> Iterator[str]:
     """Rows of the table."""
     yield "| suspension | shaft and bearings | N, kN | second, kN | moment, kN m |"
     yield "|---|---|---:|---:|---:|"
-    suspensions = {
+    suspensions: dict[str, tuple[str, list[dict[str, Any]]]] = {
         "two points, ball bearing N2": ("two_point", [{}, OWN["rolling"]]),
         "two points, film N2": ("two_point", [{}, OWN["journal, tilting"]]),
         "two points, films N and N2, no moment": ("two_point", [OWN["journal"], OWN["journal"]]),

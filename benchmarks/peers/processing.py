@@ -152,7 +152,7 @@ def main() -> None:
         (a, mine), (b, other) = timed(partial(ours, x)), timed(partial(theirs, x))
         total += mine, other
         print(of_times(name, mine, other, f"{deviation(a, b):.1e}"))
-    print(of_times("all of it", *total, ""))
+    print(of_times("all of it", float(total[0]), float(total[1]), ""))
     _, calibrated = timed(lambda: [np.array(equality(s, DT).pvalue) for s in sets(x)])
     print(row("calibrated equality (no counterpart)", f"{calibrated:.2f}", "", "", ""))
 

@@ -182,7 +182,7 @@ def scene_rings(count=2000) -> list[dict]:
             "cases_per_s": count / best["flexible"],
             "cases_per_s_rigid": count / best["rigid"],
             "rigid_over_flexible": best["flexible"] / best["rigid"],
-            "unknowns": flexible_rings.elements.modes.size,
+            "unknowns": flexible_rings.elements.modes.size,  # type: ignore[attr-defined]
             "mean_iterations": float(flexible_rings.iterations.mean()),
             "mean_iterations_rigid": float(found["rigid"].iterations.mean()),
             "largest_residual": float(flexible_rings.residual.max()),

@@ -274,7 +274,7 @@ def rupture() -> None:
             equation.thicken(state)
             load, limits = np.array(film_heat.LADDER_LOAD), Limits(1e-10, 60)
             found = statics.solve(0, load, film_heat.LADDER_SPEED, None, limits)
-            warmth = equation.solve(found.u, found.position, equation.cells_of(state))
+            warmth = equation.alone(found, equation.cells_of(state))
             state = equation.state(warmth)
         full = film.state[LOAD] > _EMPTY
         angle = film.mesh.angle[:, None]

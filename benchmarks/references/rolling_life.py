@@ -23,6 +23,7 @@ from loadflow.rolling import (
     main_bearings,
     system_life,
 )
+from loadflow.rolling.roller_raceways import RollerRaceways
 from loadflow.rotor import simulate
 from loadflow.shaft import MomentBearing, TwoPoint, bearing_loads
 from loadflow.stages.frames import to_rolling
@@ -130,6 +131,7 @@ def contact_rungs() -> list[dict[str, Any]]:
 def edges() -> list[dict[str, Any]]:
     """Largest pressure of a tapered main-bearing roller: influence coefficients against slices."""
     bearing = main_bearings("tapered-pair")["M"]
+    assert isinstance(bearing, RollerRaceways)
     rows = []
     for profile in ("straight", "iso"):
         for tilt in (0.0, 0.5e-3):

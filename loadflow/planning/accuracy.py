@@ -157,7 +157,7 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
         kappa, aged = (
             total(
                 Part("rolling", effect, None if isnan(size) else size)
-                for effect in _left_out(scene, "rolling")
+                for effect in effects_left_out(scene, "rolling")
                 for size in [known.size(effect, name)]
             )
             for name in ("viscosity ratio", "modified life")
@@ -196,15 +196,23 @@ def contributions(
 
 
 def of_link(
-    scene: Scene, result: str, quantity: str, link: Link, known: Estimates
+    scene: Scene,
+    result: str,
+    quantity: str,
+    link: Link,
+    known: Estimates,
+    left_out: Iterable[Effect] | None = None,
 ) -> Iterator[Part]:
-    """What the model at one link, and its effects that are left out, add to that error."""
+    """What the model at one link, and its effects that are left out, add to that error.
+
+    The effects that the model leaves out may be given by who asks for many of its links.
+    """
     bearings = link.gains or result.split(".")[0]
     gain = gains().get(bearings, {}).get(quantity) if link.of_load else 1.0
     share = _rung_error(scene, models()[link.model], link.quantity)
     if share != 0.0:
         yield Part(link.model, None, None if share is None or gain is None else share * gain)
-    for effect in _left_out(scene, link.model):
+    for effect in effects_left_out(scene, link.model) if left_out is None else left_out:
         size = known.size(effect, link.quantity)
         if size:
             error = None if gain is None or isnan(size) else size * gain
@@ -222,7 +230,8 @@ def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
     return entry["errors"][quantity]["max"] if quantity in entry["errors"] else None
 
 
-def _left_out(scene: Scene, model: str) -> Iterator[Effect]:
+def effects_left_out(scene: Scene, model: str) -> Iterator[Effect]:
+    """Effects of a model that concern a scene and are off in it."""
     for effect in EFFECTS:
         if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
             yield effect

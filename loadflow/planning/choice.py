@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.planning.accuracy import Errors, expected_errors, of_link, total
+from loadflow.planning.accuracy import Errors, effects_left_out, expected_errors, of_link, total
 from loadflow.planning.effects import Estimates, concerned, is_valid, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
@@ -143,6 +143,7 @@ class _Choosing:
     known: Estimates
     times: dict[Any, float | None] = field(default_factory=dict)
     parts: dict[Any, float | None] = field(default_factory=dict)
+    left_out: dict[Any, list[Effect]] = field(default_factory=dict)
 
     def with_sections(self, changed: Mapping[str, Any]) -> Scene:
         return self.scene.model_copy(update=dict(changed))
@@ -322,9 +323,13 @@ class _Choosing:
     ) -> float | None:
         """What a link brings to an answer; candidates share their sections, and so most of it."""
         sections = dict.fromkeys((models()[link.model].section, *forking))
-        place = answer, link, *(id(getattr(scene, section)) for section in sections)
+        there = tuple(id(getattr(scene, section)) for section in sections)
+        place = answer, link, there
         if place not in self.parts:
-            self.parts[place] = total(of_link(scene, *answer, link, self.known))
+            if (link.model, there) not in self.left_out:
+                self.left_out[link.model, there] = [*effects_left_out(scene, link.model)]
+            left_out = self.left_out[link.model, there]
+            self.parts[place] = total(of_link(scene, *answer, link, self.known, left_out))
         return self.parts[place]
 
 

@@ -46,7 +46,8 @@ class Shaft(Section, BaseModel):
     @property
     def suspensions(self) -> dict[str, Concept]:
         """The suspensions of the shaft that the scene has, by name."""
-        return {name: concept for name, concept in self if concept and name not in SWINGING}
+        fields = vars(self).items()  # plans ask often, and pydantic's own iteration is slow
+        return {name: concept for name, concept in fields if concept and name not in SWINGING}
 
     @property
     def concepts(self) -> tuple[Concept, ...]:
