@@ -338,6 +338,26 @@ def test_the_effort_of_a_search_leaves_films_in_shells_that_take_many_steps(numb
     assert drawn("shell", number)[1]().converged
 
 
+def test_films_at_all_temperatures_have_one_effort_and_begin_at_the_one_before(monkeypatch):
+    """Each was sought from a light load on: number 246, a soft thick shell, took 15 s and more."""
+    made: list[Effort] = []
+    of, resolve, steps = Effort.of, Statics.resolve, list[int]()
+    monkeypatch.setattr(Effort, "of", lambda *given: made.append(of(*given)) or made[-1])
+
+    def counted(self: Statics, *given: Any, **more: Any) -> Any:
+        used, solution = resolve(self, *given, **more)
+        if not given[5:]:  # asked for from outside, on whichever cells it is found
+            steps.append(solution.iterations)
+        return used, solution
+
+    monkeypatch.setattr(Statics, "resolve", counted)
+    assert drawn("composed", 246)[1]().converged
+    assert len(made) == 1
+    assert len(steps) > 4
+    assert made[0].spent == sum(steps)
+    assert sorted(steps)[len(steps) // 2] < 0.1 * steps[0]
+
+
 def first_effort(monkeypatch: pytest.MonkeyPatch, **words: Any) -> tuple[Statics, Effort]:
     """Film of a bearing, and what its search may take, as it begins."""
 

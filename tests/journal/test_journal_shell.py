@@ -25,6 +25,7 @@ from loadflow.journal import (
     ThickShell,
     TiltingPads,
 )
+from loadflow.journal.film.cylinder import bore_compliance
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
@@ -313,3 +314,13 @@ def test_a_scene_states_its_shell():
     assert found.eccentricity_ratio[0] == pytest.approx(float(direct.eccentricity_ratio))
     with pytest.raises(ValueError, match="for a shell that gives way"):
         Journal.model_validate({"shell": {"kind": "local", "compliance": 1e-12}, "rung": "map"})
+
+
+@pytest.mark.parametrize("wall", [0.05, 0.5])
+def test_many_orders_of_a_thick_shell_are_those_that_are_computed_one_by_one(wall):
+    """Of many the high ones lie on a polynomial."""
+    shell = np.linspace(0.0, 0.1, 5), 1.0, 1.0 + wall, 2e11, 0.3
+    every = bore_compliance(np.arange(241), *shell)
+    for order in (0, 1, 7, 8, 9, 20, 57, 131, 239, 240):
+        alone = bore_compliance(np.array([order]), *shell)[0]
+        np.testing.assert_allclose(every[order], alone, rtol=0, atol=1e-6 * alone.max())

@@ -40,6 +40,11 @@ class Search:
     last: tuple[Statics, Solution] | None = None
     why: tuple[float, str] | None = None
 
+    @property
+    def over(self) -> bool:
+        """Whether nothing is left of it: a search would be none, and its end would say nothing."""
+        return any(effort.over for effort in self.efforts)
+
     def effort(self, film: DiscreteFilm, max_iterations: int) -> Effort:
         """What is left to all films of the load, as one more is asked for."""
         if not self.efforts:

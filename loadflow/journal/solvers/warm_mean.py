@@ -203,16 +203,16 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         beside: Solution | None = None  # of the load before: what is found at once costs little
         for index in asked:
             last = beside if before is None else found.get(index, beside)
-            effort = search.effort(statics.film, each.max_iterations)
+            sought, effort = not search.over, search.effort(statics.film, each.max_iterations)
             given = index, loads[index], float(speeds[index]), last, each
             solution = statics.solve(*given, True, effort)
             spent += solution.iterations
             found.pop(index, None)
             if solution.converged:
                 found[index] = worst = beside = solution
+            elif sought:
+                some.why = f"; {statics.message(solution, loads[index])}"
         some.leave(set(asked) - set(found))
-        if not found:
-            some.why = f"; {statics.message(solution, loads[index])}"
         return replace(worst, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:

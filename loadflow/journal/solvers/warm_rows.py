@@ -76,7 +76,7 @@ def warm_rows(
         if not found.converged and last is not None:
             found = found_on(statics, equation, None)
         used = statics, equation
-        if found.lost and finer is not None:
+        if found.lost and finer is not None and not search.over:
             on_more = _prepared(bearing, finer, line, float(np.abs(speeds).max()))
             better = found_on(*on_more, None)
             if better.converged or not better.lost or found.warmth is None:
