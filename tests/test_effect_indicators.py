@@ -63,27 +63,6 @@ def test_a_film_beside_a_bearing_that_takes_the_moment_gives_way_until_the_bent_
     np.testing.assert_allclose(found + resists * lies, rigid, rtol=1e-6)
 
 
-def test_asperities_carry_at_the_end_that_a_shaft_closes_as_it_tilts_in_its_films():
-    """At mid-plane they carry nothing; answers of the whole film feel them less than its end."""
-    asperities = {"roughness": 0.56e-6, "contact_modulus": 46.5e9, "factor": 1e-3}
-    film_of = {"tilt": True, "motion": "transient", "rung": "reduced"}
-    rough = film_of | {"contact": {"friction": 0.15, "asperities": asperities}}
-
-    def told(speed, **support):
-        section = {"outer_diameter": 3.0, "inner_diameter": 2.7}
-        beam = {"sections": [section], "supports": [support] * 2}
-        keys = {"loads": {"wind_speeds": [speed]}, "shaft": {"two_point": {"beam": beam}}}
-        scene = make_scene({"name": "s", "journal": rough} | keys)
-        return film.CONTACT.indicator(situation(scene, list_cases(scene)))
-
-    floats = {"stiffness": "journal", "takes_moment": True}
-    assert set(told(24.0).values()) == set(told(8.0, **floats).values()) == {0.0}
-    tilted = told(24.0, **floats)
-    assert 0.005 < tilted["minimum film"] == tilted["maximum pressure"] < 0.05
-    assert 0.0 < tilted["friction power"] == tilted["eccentricity ratio"]
-    assert tilted["friction power"] < 0.1 * tilted["minimum film"]
-
-
 @pytest.mark.parametrize(
     ("scene_at", "effect"),
     [

@@ -91,7 +91,7 @@ def surely_small(scene: Scene, effect: Effect, known: Estimates, *, alone: bool 
 
 def _reaches(scene: Scene, result: str, quantity: str, effect: Effect) -> bool:
     links = giving(result).results[result](scene)[quantity]
-    return any(link.model == effect.model for link in links)
+    return any(effect.adds_to(link.model) for link in links)
 
 
 _FEW = {
@@ -111,11 +111,11 @@ _SPEED = tuple(Link(model, "slowest speed", of_load=False) for model in ("wind",
 def errors_beside(scene: Scene, known: Estimates) -> Errors:
     """Return the error of what a comparison makes of a run beside its results, by quantity.
 
-    No accuracy is asked of these. Of rolling bearings the ladder holds what few samples in ideal
-    rolling are off; shares of a load, and the tilt of the shaft, follow the load as it is, and κ
-    the slowest speed; both κ and the modified life follow the oil, by the temperature that a scene
-    without cooling assumes. Effects that are left out count where
-    they move the load, or the side flow itself.
+    No accuracy is asked of these. Of rolling bearings the ladder holds what few samples in
+    ideal rolling are off; shares of a load, and the tilt of the shaft, follow the load as it
+    is, and κ the slowest speed; κ, friction, Λ and the modified life follow the oil, by the
+    temperature that a scene without cooling assumes. Effects that are left out count where they
+    move the load, or the side flow itself.
 
     Parameters
     ----------
@@ -148,23 +148,24 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
     if scene.wants("rolling"):
         kinds = {one.friction_model for one in scene.rolling.geometries.values()}
         few = _few_samples("balls" if kinds == {"balls"} else "rollers")
+
+        def warmer(quantity: str) -> float | None:
+            return total(
+                Part("rolling", effect, None if isnan(size) else size)
+                for effect in effects_left_out(scene, "rolling")
+                for size in [known.size(effect, quantity)]
+            )
+
         reached = {
-            name: of("rolling.friction", gain, *load_links("bearing load max"))
+            name: _plus(of("rolling.friction", gain, *load_links("bearing load max")), warmer(gain))
             for name, gain in _FEW.items()
         } | {"row share": whole}
         speed = of("rolling.friction", "slowest speed", *_SPEED)
         reached["viscosity ratio"] = None if speed is None else SLOW_POWER * speed
-        kappa, aged = (
-            total(
-                Part("rolling", effect, None if isnan(size) else size)
-                for effect in effects_left_out(scene, "rolling")
-                for size in [known.size(effect, name)]
-            )
-            for name in ("viscosity ratio", "modified life")
-        )
-        reached["viscosity ratio"] = _plus(reached["viscosity ratio"], kappa)
+        reached["viscosity ratio"] = _plus(reached["viscosity ratio"], warmer("viscosity ratio"))
         life = giving("rolling.life").results["rolling.life"](scene)["life"]
-        found["rolling.life"] = {"modified life": _plus(of("rolling.life", "life", *life), aged)}
+        aged = _plus(of("rolling.life", "life", *life), warmer("modified life"))
+        found["rolling.life"] = {"modified life": aged}
         found["rolling.friction"] = {
             name: _plus(share, few.get(name)) for name, share in reached.items()
         }
@@ -233,7 +234,7 @@ def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
 def effects_left_out(scene: Scene, model: str) -> Iterator[Effect]:
     """Effects of a model that concern a scene and are off in it."""
     for effect in EFFECTS:
-        if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
+        if effect.adds_to(model) and effect.concerns(scene) and not effect.is_on(scene):
             yield effect
 
 

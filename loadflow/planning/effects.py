@@ -141,7 +141,8 @@ def estimates(
 
 def concerned(scene: Scene, stages: Iterable[str]) -> list[Effect]:
     """Effects of some stages that can be there in a scene, on or off."""
-    return [one for name in stages if name in STAGES for one in effects_of(STAGES[name], scene)]
+    found = (one for name in stages if name in STAGES for one in effects_of(STAGES[name], scene))
+    return [*dict.fromkeys(found)]
 
 
 def switched(scene: Scene, effect: Effect, on: bool) -> Scene | None:

@@ -64,9 +64,9 @@ def _per_sample(known: dict[str, Any]) -> float:
 
 def cost_of_effects(scene: Scene, stage: Stage) -> float:
     """Time of a stage over that without the effects whose cost its rungs do not tell."""
-    factor = 1.0
+    factor, models = 1.0, {rungs.name for rungs in stage.models}
     for effect in effects_of(stage, scene):
-        if effect.is_on(scene):
+        if effect.model in models and effect.is_on(scene):
             factor *= effect.cost(scene)
     return factor
 

@@ -34,6 +34,6 @@ def mean_temperature(
             "journal.heat over the area of the film has no single temperature; a table "
             "journal.heat of one temperature has"
         )
-    film, bearing, lies = options.film_model, options.geometry, Line.of(speed.shape, **line)
+    film, bearing, lies = options.film_model, options.geometry, Line.of(speed.shape, 0.0, **line)
     model = model_of("at_rest", film, bearing, lies)
     return series_temperature(model, bearing, film, force, speed, lies)

@@ -6,8 +6,9 @@ import xarray as xr
 from synthetic import cube_file
 
 from loadflow.errors import InputError
-from loadflow.planning.accuracy import errors_beside
+from loadflow.planning.accuracy import errors_beside, expected_errors
 from loadflow.planning.effects import Estimates, switched
+from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.friction import Cooling, Friction
 from loadflow.scene.scene import make_scene
@@ -92,6 +93,24 @@ def test_an_assumed_temperature_is_in_the_error_of_viscosity_ratio_and_modified_
     assert kappa[1] - kappa[0] == pytest.approx(0.4)
     assert life[1] - life[0] == pytest.approx(0.7)
     assert (kappa[2], life[2]) == (kappa[0], life[0])  # somebody knows it
+
+
+def test_an_assumed_temperature_is_in_the_error_of_friction_and_film_of_runs_and_comparisons():
+    """Of a run that asks for friction alone, too, whose plan tells of the effect once."""
+    warm = {"friction power": 0.1, "film parameter": 0.5, "modified life": 9.0}
+    indicated = Estimates({ROLLING_HEAT.name: warm})
+    cooling = {place: {"conductance": 12.0} for place in ("N", "N2")}
+    known, assumed = (
+        _of_two(found).model_copy(update={"results": ["rolling.friction"]})
+        for found in (cooling, {})
+    )
+    for errors in (expected_errors, errors_beside):
+        cold, off = (errors(one, indicated)["rolling.friction"] for one in (known, assumed))
+        for name in ("friction power", "film parameter"):
+            assert off[name] - cold[name] == pytest.approx(warm[name])
+    plan = make_plan(assumed)
+    assert [one.name for one in plan.effects].count(ROLLING_HEAT.name) == 1
+    assert any(said.startswith("rolling.friction: off in") for said in plan.shortfalls)
 
 
 def test_friction_that_leaves_at_no_temperature_has_no_size():

@@ -20,7 +20,7 @@ from loadflow.stages.effects.film_sizes import (
     no_bound_at_standstill,
     worst,
 )
-from loadflow.stages.effects.film_tilt import films_to_the_end, left_at_ends, thinnest_by
+from loadflow.stages.effects.film_tilt import left_at_ends, thinnest_by
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.frames import to_film
 from loadflow.stages.stage import with_settings
@@ -165,8 +165,7 @@ SHELL = Effect(
 def _contact(at: Situation) -> Sizes:
     """Share of the load that asperities take of surfaces as rough as the scene says.
 
-    All of it where the shaft stands throughout. Where it tilts, that of the half of the width which
-    closes; the thinnest film and the largest pressure are those at its end.
+    All of it where the shaft stands throughout.
     """
     found = []
     for place, film in at.films.items():
@@ -174,11 +173,7 @@ def _contact(at: Situation) -> Sizes:
         turns = at.turns
         share = float(asperity_share(film.minimum_film[turns], rough).max(initial=0.0))
         share = share if turns.any() else 1.0
-        closing = asperity_share(films_to_the_end(at, place), rough)
-        share = max(share, 0.5 * float(closing.mean(axis=1).max(initial=0.0)))
-        at_end = max(share, float(closing.max(initial=0.0)))
-        whole = dict.fromkeys(ANSWERS, share)
-        found.append(whole | {"minimum film": at_end, "maximum pressure": at_end})
+        found.append(dict.fromkeys(ANSWERS, share))
     return largest(found)
 
 

@@ -47,18 +47,6 @@ def left_at_ends(at: Situation, name: str) -> float:
     return float(left.min(initial=1.0))
 
 
-def films_to_the_end(at: Situation, name: str) -> Floats:
-    """Films of a bearing (n, m), m, from mid-plane to the end that a tilted shaft comes nearest to.
-
-    However thin they get there; of loads that no film carries there are none.
-    """
-    ends = _ends(at, name)
-    return ends.film[:, None] + np.outer(ends.left(0.0) - ends.film, _ACROSS)
-
-
-_ACROSS = np.linspace(0.0, 1.0, 33)  # shares of the way to an end
-
-
 def _ends(at: Situation, name: str) -> Ends:
     """What a shaft that tilts takes of the films of a bearing at their ends.
 
