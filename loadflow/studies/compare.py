@@ -68,6 +68,8 @@ from loadflow.verdict import Verdict, from_dataset
 
 _OF_CONES = "at rest and at one temperature, which the error by models does not count"
 
+_OIL = ("oil_flow", "pump")
+
 _POWER_OF = {"journal": "journal.film", "thrust": "thrust.film"}
 """Result that knows the friction of a room."""
 
@@ -200,8 +202,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     pressure = extreme(run, table, groups, name, "most", 1e-6, "MPa", model)
     yield "film_pressure", against(pressure, verdicts, "largest film pressure", 1e-6)
     share = shares_of(run, table)
-    collar = leaving(run.tables.get("thrust"), table["case"].values)
-    yield from _oil(run, table, collar)
+    yield from _oil(run, table, run.tables.get("thrust"))
     yield "whirl", whirl(run, table, groups)
     yield "mixed_time", mixed_time(run, table, share, groups)
     bores = _bores(run)
@@ -231,15 +232,21 @@ def _of_pads(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[str, 
     yield "film_to_roughness", _over_roughness(film, run.scene.thrust.bearings.__getitem__)
     if film.place:
         yield "eccentricity_ratio", clearance_used(film, run.scene.thrust.bearings[film.place])
-    yield from _oil(run, table, np.zeros(table.sizes["case"]))
+    yield from _oil(run, table)
     yield "mixed_time", mixed_time(run, table, share, groups)
     yield from _lost(run, table, table["lost_power"], _OF_CONES)
 
 
-def _oil(run: Finished, table: xr.Dataset, collar: np.ndarray) -> Iterator[tuple[str, Number]]:
-    """Oil that leaves films and a collar beside them, m³/s, and the power to bring it back."""
-    groups, share = Groups.of(table), shares_of(run, table)
-    own = leaving(table, table["case"].values)
+def _oil(
+    run: Finished, table: xr.Dataset, beside: xr.Dataset | None = None
+) -> Iterator[tuple[str, Number]]:
+    """Oil that leaves films and a collar beside them, and the power to bring it back."""
+    if any("mean_side_flow" not in one for one in (table, beside) if one is not None):
+        why = "n/a: its run is of a version that kept no oil of pads; --overwrite makes it anew"
+        yield from ((name, Number(math.nan, QUANTITIES[name].unit, note=why)) for name in _OIL)
+        return
+    groups, share, cases = Groups.of(table), shares_of(run, table), table["case"].values
+    own, collar = leaving(table, cases), leaving(beside, cases)
     flows = {"journal.film" if "journal" in run.tables else "thrust.film": own}
     flows |= {"thrust.film": collar} if collar.any() else {}
     lost = {name: float((share * flow).sum()) for name, flow in flows.items()}

@@ -46,7 +46,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
-from loadflow.studies.compare import in_wide_bore, judged
+from loadflow.studies.compare import _oil, in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed
@@ -387,6 +387,13 @@ def test_oil_without_a_stated_supply_is_brought_back_at_a_pressure_that_is_said(
     power, note = supply_power(xr.Dataset(states), 1e-3)  # m³/s of a collar, which has no supply
     assert power == pytest.approx(5.0 + 1e5 * 1e-3)
     assert note == "what leaves the collar at 0.1 MPa, assumed; not in the energy"
+
+
+def test_a_run_that_kept_no_oil_of_pads_says_what_makes_it_anew():
+    older = xr.Dataset({"smallest_film": ("case", [1e-5])}, {"case": ["a"]})
+    told = dict(_oil(SimpleNamespace(tables={"thrust": older}), older))
+    assert {*told} == {"oil_flow", "pump"}
+    assert all(math.isnan(one.value) and "--overwrite" in one.note for one in told.values())
 
 
 def test_oil_of_pads_is_that_of_each_load_case_by_its_name():
