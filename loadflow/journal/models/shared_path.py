@@ -1,8 +1,8 @@
 """One shaft in two reduced films with effects, followed through time.
 
 Both films and the shaft are one system: each film has the loads, and the shaft the tilt, that the
-other one leaves, with what the moments of the films bend it, and turn housings. Films in smooth
-bores do not keep shaft and shell apart for sure where it is pressed on a bearing end, as cells are
+other one leaves, with what the moments of the films bend it, and turn housings. Smooth films
+do not keep shaft and shell apart for sure where it is pressed on a bearing end, as cells are
 wider than the film is long there; what surfaces that touch do is done by a stop at each end.
 """
 

@@ -223,7 +223,7 @@ def side_of(
     felt[[2, 3], [own, own + 1]] = 1.0
     film, contact = model.film, model.options.contact
     load = _HOLDS * float(np.hypot(*lying.force[:, number].T).max())
-    if film.rough.size > 0.0 or film.give > 0.0:
+    if film.rough.size > 0.0:
         load = 0.0
     rub = 0.0 if contact is None else contact.coefficient * model.bearing.radius
     warmth, states = slow_states(model.options, model.units, 0.5, rub, temperature, count)
