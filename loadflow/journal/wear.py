@@ -184,7 +184,8 @@ def wear_bearing(
     cycles : sequence of Cycle
         What wears it, in one mixture.
     film : Film
-        With `contact`; isothermal, as a rigid shell; always on the rung "grid".
+        With `contact`; isothermal, in a rigid shell. Of the rung "reduced" it stays there; other
+        rungs give way to "grid".
     wear : Wear
         Law and running-in.
     control : Control, optional
@@ -219,7 +220,7 @@ def wear_bearing(
     (True, True)
     """
     contact = _checked(bearing, cycles, film, wear)
-    film = replace(film, rung="grid")
+    film = film if film.rung == "reduced" else replace(film, rung="grid")
     surface = Surface(bearing, wear.around, wear.across)
     depth = np.zeros(surface.shape) if worn is None else np.array(worn, dtype=float)
     allowed = f"≥ 0 m, finite, {surface.shape}"

@@ -406,7 +406,9 @@ def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
     assert [around for around, _ in asked] == [60]
 
 
-@pytest.mark.parametrize(("work", "tried"), [(1e4, [60, 120, 240]), (2e6, [60])])
+@pytest.mark.parametrize(
+    ("work", "tried"), [(1e4, [60, 120, 240]), (2e6, [60]), (None, [60, 120, 240])]
+)
 def test_an_orbit_that_was_not_tried_on_more_cells_says_which_to_ask_for(work, tried):
     asked: list[int] = []
 

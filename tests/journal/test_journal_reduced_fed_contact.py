@@ -17,9 +17,11 @@ from loadflow.journal import (
     JournalBearing,
     Lobes,
     Lubricant,
+    MassConserving,
     Reynolds,
     Sommerfeld,
     Supply,
+    ThickShell,
 )
 from loadflow.journal.models import composed
 from loadflow.tribology import AsperityContact
@@ -127,6 +129,25 @@ def test_paths_that_touch_beside_grooves_are_those_of_the_grid(steps):
         scale = np.abs(fine[name]).max()
         assert np.abs(few[name] - fine[name]).max() < allowed * scale, name
     assert np.abs(few.contact_share - fine.contact_share).max() < 0.01
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("law", [GasMixture(5e4), MassConserving()], ids=lambda law: law.kind)
+def test_paths_that_touch_beside_grooves_of_a_thick_shell_are_those_of_the_grid(law):
+    phase = np.linspace(0.0, 2 * np.pi, 21)
+    force = LOAD + np.stack([5e3 * np.cos(phase), 3e3 * np.sin(phase)], axis=-1)
+    thick = ThickShell(outer_diameter=0.3, modulus=2.1e11)
+    few, fine = (
+        BEARING.orbit(
+            phase / SPEED, force, SPEED, replace(film, grid=(96, 24), shell=thick, cavitation=law)
+        )
+        for film in (REDUCED, FILM)
+    )
+    assert fine.contact_share.max() > 0.2
+    for name, allowed in zip(NAMES, (0.015, 0.03, 0.08, 0.01, 0.01)):
+        scale = np.abs(fine[name]).max()
+        assert np.abs(few[name] - fine[name]).max() < allowed * scale, name
+    assert np.abs(few.contact_share - fine.contact_share).max() < 0.02
 
 
 def test_cells_around_asperities_beside_grooves_are_of_second_order():

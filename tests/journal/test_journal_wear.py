@@ -179,6 +179,30 @@ def test_a_tilted_shaft_finds_the_asperities_that_carry_it_from_far_beside_them(
         assert missed < 1e-9
 
 
+@pytest.mark.parametrize(
+    ("tilt", "law"), [((0.0, 0.0), Archard(2e-15)), ((0.0, 1e-5), Archard(1e-16))],
+    ids=["deep", "tilted"],
+)  # fmt: skip
+def test_few_points_across_wear_as_the_grid_does(tilt, law):
+    """Deep is ten times the film of a new bore."""
+    wear = Wear(law, renewal=2.0, step=0.5, across=9)
+    cycles = [start(tilt=np.tile(tilt, (21, 1)))]
+    few, fine = (
+        wear_bearing(
+            BEARING,
+            cycles,
+            film(GasMixture(5e4), 1.5e5, grid=(96, 16), inlet=None, rung=rung),
+            wear,
+        )
+        for rung in ("reduced", "grid")
+    )
+    assert few.film.rung == "reduced"
+    assert few.depth.max() == pytest.approx(fine.depth.max(), rel=0.025)
+    assert few.volume == pytest.approx(fine.volume, rel=0.03)
+    energies = (one.history["contact_energy"][-1, 0] for one in (few, fine))
+    assert np.divide(*energies) == pytest.approx(1.0, abs=0.08)
+
+
 def test_no_contact_wears_nothing():
     fast = Cycle([0.0, 1.0], [(LOAD, 0.0)] * 2, [100.0, 100.0], 1e6, in_motion=False)
     found = wear_bearing(BEARING, [fast], film(), Wear(Archard(1e-15)))

@@ -285,8 +285,6 @@ def fed(film, work, wedge):
             drag = wedge * fill[upwind, k] * face[DRAG, i, k]
             flow += weights[k] * (drag - face[FLOW, i, k] * rise)
         for k in range(m, film.nodes.z.size):  # the ends, at the pressure of the grooves
-            gap = film.ring.base_face[i] - work.centre[0, k] * film.ring.cos_face[i]
-            gap -= work.centre[1, k] * film.ring.sin_face[i]
-            flow += weights[k] * wedge * film.ring.edge_fill * gap
+            flow += weights[k] * wedge * film.ring.edge_fill * face[FACE_PLANES, i, k]
         total += flow if feeds else -flow
     return total

@@ -48,7 +48,7 @@ def on_enough_cells(options: Film, path: Callable[[Film], xr.Dataset], most: int
             if stop is None and not isinstance(error, OrbitStopped):
                 raise
             stop = stop or cast("OrbitStopped", error)
-            own = error.work if isinstance(error, OrbitStopped) else 0.0
+            own = (isinstance(error, OrbitStopped) and error.work) or 0.0
             done, ahead = done + own, 2.0 * own
         if 2 * around > most:
             raise stop

@@ -175,7 +175,7 @@ def no_start(
     speed: float,
     ratio: float,
     found: tuple[float, float, float],
-    work: float = 0.0,
+    work: float | None = None,
     why: str = "",
 ) -> OrbitStopped:
     """Say that an orbit has no equilibrium to start from.
@@ -186,7 +186,7 @@ def no_start(
         First load (2,), N, its speed, rad/s, and the eccentricity ratio at which Newton ended.
     found : tuple of float
         Residual, its rounding level, and Newton steps.
-    work : float
+    work : float or None
         As of `OrbitStopped`.
     why : str
         What else is known.

@@ -38,11 +38,12 @@ class OrbitStopped(SolverError):
     ----------
     time : float
         Where it stops, s; NaN for the first film.
-    work : float
-        Newton steps times cells that it took up to there; 0 where they were not counted.
+    work : float or None
+        Newton steps times cells that it took up to there; None where nobody counts them: smooth,
+        aligned films on the rung "reduced", and shafts in several films, of which a step is cheap.
     """
 
-    def __init__(self, message: str, time: float = math.nan, work: float = 0.0) -> None:
+    def __init__(self, message: str, time: float = math.nan, work: float | None = None) -> None:
         super().__init__(message)
         self.time, self.work = time, work
 
@@ -54,7 +55,7 @@ def stopped(
     ratio: float,
     found: tuple[float, float, float],
     why: str = "",
-    work: float = 0.0,
+    work: float | None = None,
 ) -> OrbitStopped:
     """Say at which load an orbit stops.
 
@@ -67,7 +68,7 @@ def stopped(
         Residual, its rounding level, and Newton steps.
     why : str
         What else is known.
-    work : float
+    work : float or None
         As of `OrbitStopped`.
     """
     return OrbitStopped(
