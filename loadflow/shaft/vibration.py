@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.shaft.line import DOF, LineSupport, ShaftLine, assembled
+from loadflow.shaft.line import DOF, LineSupport, ShaftLine, System, assembled
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -93,7 +93,7 @@ def _each_at_its_own(
     import xarray as xr
 
     still = [replace(one, damping=None) for one in supports(abs(speed) or 1.0)]
-    undamped = _modes(line, still, speed, count)[0]["natural_frequency"].values
+    undamped = _frequencies(line, still, speed, count)
     if np.isnan(undamped).all():
         raise SolverError(f"the shaft line has no mode that swings at {speed:g} rad/s")
     start, roots = _modes(line, supports(float(np.nanmax(undamped))), speed, count)
@@ -103,20 +103,87 @@ def _each_at_its_own(
     rows, most = [], 1
     for row in range(count):
         one, frequency = start.isel(mode=row), float(start["natural_frequency"][row])
+        last = math.nan
         for turn in range(1, _TURNS + 1):
             if math.isnan(frequency):
                 break
-            one = _modes(line, supports(frequency), speed, row + 1)[0].isel(mode=row)
-            last, frequency = frequency, float(one["natural_frequency"])
+            last, frequency = frequency, _frequencies(line, supports(frequency), speed, count)[row]
             if abs(frequency - last) <= _SAME * last:
-                growth.append(-float(one["damping_ratio"]) * frequency)
                 most = max(most, turn)
                 break
         else:
             raise SolverError(f"mode {row + 1} is not found: {last:g}, then {frequency:g} rad/s")
+        if not math.isnan(last):  # its shape is asked for once, where it is found
+            one = _modes(line, supports(last), speed, row + 1)[0].isel(mode=row)
+            growth.append(-float(one["damping_ratio"]) * float(one["natural_frequency"]))
         rows.append(one)
-    about = start.attrs | {"largest_growth": max(growth), "iterations": most}
+    about = start.attrs | {"largest_growth": float(np.nanmax(growth)), "iterations": most}
     return xr.concat(rows, "mode", combine_attrs="override").assign_attrs(about)
+
+
+@dataclass(frozen=True)
+class _Pencil:
+    """A x = λ B x of a shaft line on its supports, λ in `scale`, 1/s."""
+
+    system: System
+    left: NDArray[np.int64]
+    follow: Floats
+    matrices: tuple[Floats, Floats, Floats]
+    a: Floats
+    b: Floats
+    scale: float
+    speed: float
+
+    @classmethod
+    def of(cls, line: ShaftLine, supports: Sequence[LineSupport], speed: float) -> Self:
+        system = assembled(line, supports)
+        m, c, k, left = system.free(speed)
+        follow = _following(m, c, k)
+        m, c, k = (follow.T @ matrix @ follow for matrix in (m, c, k))
+        # states are all motions, and the velocities of those that have mass
+        n, heavy = len(m), np.flatnonzero(np.abs(m).sum(axis=0) > 0)
+        own, nothing = m[np.ix_(heavy, heavy)], np.zeros((n, heavy.size))
+        # times of √(m/k) bring all entries to one size
+        scale = math.sqrt(np.abs(k).max() / max(np.abs(m).max(), 1e-300))
+        a = np.block([[-k / scale**2, nothing], [nothing.T, own]])
+        b = np.block([[c / scale, m[:, heavy]], [m[heavy], np.zeros_like(own)]])
+        return cls(system, left, follow, (m, c, k), a, b, scale, speed)
+
+    def roots(self, shapes: bool) -> tuple[NDArray[np.complexfloating], Any]:
+        """All roots that are finite, 1/s, and their shapes, if these are asked for: twice the work.
+
+        Raises
+        ------
+        SolverError
+            There are none.
+        """
+        from scipy.linalg import LinAlgError, eig
+
+        try:
+            found = eig(self.a, self.b, right=shapes)
+        except (LinAlgError, ValueError) as error:
+            told = f"the shaft line has no eigenvalues at {self.speed:g} rad/s"
+            raise SolverError(told) from error
+        roots, vectors = found if shapes else (found, None)
+        real = np.isfinite(roots) & (np.abs(roots) < _INFINITE)
+        if not real.any():
+            raise SolverError(f"the shaft line has no finite eigenvalue at {self.speed:g} rad/s")
+        return self.scale * roots[real], vectors[: len(self.matrices[0]), real] if shapes else None
+
+
+def _swinging(roots: NDArray[np.complexfloating], count: int) -> NDArray[np.intp]:
+    """Which roots swing, the lowest first; no more than `count`."""
+    swing = np.flatnonzero(roots.imag > _STILL * np.abs(roots))
+    return swing[np.argsort(np.abs(roots[swing]), kind="stable")][:count]
+
+
+def _frequencies(
+    line: ShaftLine, supports: Sequence[LineSupport], speed: float, count: int
+) -> Floats:
+    """Natural frequencies of the first modes, rad/s; NaN where there are fewer."""
+    roots = _Pencil.of(line, supports, speed).roots(shapes=False)[0]
+    found = np.abs(roots[_swinging(roots, count)])
+    return np.append(found, np.full(count - found.size, np.nan))
 
 
 def _modes(
@@ -124,29 +191,11 @@ def _modes(
 ) -> tuple[xr.Dataset, NDArray[np.complexfloating]]:
     """As `modes`, on supports that are the same at every frequency, and all roots, 1/s."""
     import xarray as xr
-    from scipy.linalg import LinAlgError, eig
 
-    system = assembled(line, supports)
-    m, c, k, left = system.free(speed)
-    follow = _following(m, c, k)
-    m, c, k = (follow.T @ matrix @ follow for matrix in (m, c, k))
-    # states are all motions, and the velocities of those that have mass
-    n, heavy = len(m), np.flatnonzero(np.abs(m).sum(axis=0) > 0)
-    own, nothing = m[np.ix_(heavy, heavy)], np.zeros((n, heavy.size))
-    # times of √(m/k) bring all entries to one size
-    scale = math.sqrt(np.abs(k).max() / max(np.abs(m).max(), 1e-300))
-    a = np.block([[-k / scale**2, nothing], [nothing.T, own]])
-    b = np.block([[c / scale, m[:, heavy]], [m[heavy], np.zeros_like(own)]])
-    try:
-        roots, vectors = eig(a, b)
-    except (LinAlgError, ValueError) as error:
-        raise SolverError(f"the shaft line has no eigenvalues at {speed:g} rad/s") from error
-    real = np.isfinite(roots) & (np.abs(roots) < _INFINITE)
-    roots, vectors = scale * roots[real], vectors[:n, real]
-    if not roots.size:
-        raise SolverError(f"the shaft line has no finite eigenvalue at {speed:g} rad/s")
-    swing = np.flatnonzero(roots.imag > _STILL * np.abs(roots))
-    order = swing[np.argsort(np.abs(roots[swing]), kind="stable")][:count]
+    pencil = _Pencil.of(line, supports, speed)
+    system, left, follow, (m, c, k) = pencil.system, pencil.left, pencil.follow, pencil.matrices
+    roots, vectors = pencil.roots(shapes=True)
+    order = _swinging(roots, count)
     shape = np.full((count, 2, len(system.nodes), 4), np.nan)
     values = np.full((5, count), np.nan)
     for row, i in enumerate(order):

@@ -394,12 +394,12 @@ def test_the_page_tells_of_a_tilt_in_the_clearances_that_fast_models_leave_out(c
 
 
 def test_killed_or_not_and_on_one_or_two_processes_it_finds_the_same(cube, found, tmp_path):
-    """Half of its parts gone, as of a search that was killed, and two processes instead of one."""
+    """Some of its parts gone, as of a search that was killed, and two processes instead of one."""
     shutil.copytree(found.path.parent.parent, tmp_path / "search")
     folder = tmp_path / "search" / "design" / "journal-cylindrical"
     parts = sorted((folder / "parts").glob("*.h5"))
     assert len(parts) > 4
-    for part in parts[::2]:
+    for part in parts[::4]:
         part.unlink()
     parts[1].write_bytes(parts[1].read_bytes()[:-200])  # cut short
     kept = {part: part.stat().st_mtime_ns for part in parts[3::2]}

@@ -86,7 +86,7 @@ class MobilityMap:
     def results_at(self, position: Array, load: Array) -> tuple[Array, Array]:
         """1 − ε, χ, s (n, 3), and the rows of results (n, 12), at positions and loads (n, 2)."""
         place, raw = np.empty((len(load), 3)), np.empty((len(load), 12))
-        kernel.along(self.results, self.axes, position, load, place, raw)
+        kernel.along(self.results, self.axes, position, np.ascontiguousarray(load), place, raw)
         values = np.where(np.arange(12) < FILL, np.exp(raw), raw)
         values[:, STIFFNESS.start :] = np.sinh(raw[:, STIFFNESS.start :])
         values[:, ODD] *= np.where(place[:, 1] < 0, -1.0, 1.0)[:, None]

@@ -212,7 +212,8 @@ def advance(
     path, slip, error = np.empty((time.size, 2)), np.empty((time.size, 2)), np.zeros(time.size)
     steps = np.zeros(time.size, dtype=np.int64)
     stop = kernel.march(
-        motion, axes, units, time, np.ascontiguousarray(force), np.ascontiguousarray(speed),
+        motion, axes, units, time, np.ascontiguousarray(force),
+        np.require(speed, requirements="CW"),  # one that is read-only compiles anew
         start, math.sqrt(control.tolerance), _MOST, path, slip, steps, error,
     )  # fmt: skip
     if stop >= 0:
