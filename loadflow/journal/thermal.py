@@ -210,8 +210,8 @@ class _Balance:
         except SolverError as error:
             said = str(error).removeprefix("load 0: ")
             raise SolverError(
-                f"load {place}: no film at any temperature; at {temperature:.4g} K it is that of "
-                f"{cold:.4g} K at {thinner[0]:.4g} times the speed: {said}"
+                f"load {place}: no film at any temperature; warm or cold, it is that of oil at "
+                f"{cold:.4g} K at another speed: {said}"
             ) from error
 
     def _film(self, temperature: Array, places: NDArray[np.int64]) -> Columns:

@@ -44,7 +44,8 @@ def equilibrium_rows(
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
         search = Search() if line.searches is None else line.searches[index]
-        if control.strict and search.why is not None and search.why[0] == omega:
+        over = search.over
+        if control.strict and search.why is not None and (over or search.why[0] == omega):
             raise SolverError(f"load {index}: {search.why[1]}")
         effort = search.effort(statics.film, control.max_iterations)
         on, near = statics, last
@@ -58,7 +59,8 @@ def equilibrium_rows(
             afresh.film.raise_scale(statics.film.scale)
             used, solution = afresh.resolve(index, load, omega, None, control, effort=effort)
         if not solution.converged:
-            search.why = omega, used.message(solution, load)
+            if not over or search.why is None:
+                search.why = omega, used.message(solution, load)
             if control.strict:
                 raise SolverError(f"load {index}: {search.why[1]}")
         else:
