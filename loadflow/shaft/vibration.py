@@ -149,8 +149,8 @@ class _Pencil:
         b = np.block([[c / scale, m[:, heavy]], [m[heavy], np.zeros_like(own)]])
         return cls(system, left, follow, (m, c, k), a, b, scale, speed)
 
-    def roots(self, shapes: bool) -> tuple[NDArray[np.complexfloating], Any]:
-        """All roots that are finite, 1/s, and their shapes, if these are asked for: twice the work.
+    def roots(self, shapes: bool) -> tuple[NDArray[np.complexfloating], NDArray[Any]]:
+        """All roots that are finite, 1/s, and their shapes: twice the work; empty if not asked for.
 
         Raises
         ------
@@ -164,11 +164,11 @@ class _Pencil:
         except (LinAlgError, ValueError) as error:
             told = f"the shaft line has no eigenvalues at {self.speed:g} rad/s"
             raise SolverError(told) from error
-        roots, vectors = found if shapes else (found, None)
+        roots, vectors = found if shapes else (found, np.empty((0, len(found))))
         real = np.isfinite(roots) & (np.abs(roots) < _INFINITE)
         if not real.any():
             raise SolverError(f"the shaft line has no finite eigenvalue at {self.speed:g} rad/s")
-        return self.scale * roots[real], vectors[: len(self.matrices[0]), real] if shapes else None
+        return self.scale * roots[real], vectors[: len(self.matrices[0]), real]
 
 
 def _swinging(roots: NDArray[np.complexfloating], count: int) -> NDArray[np.intp]:

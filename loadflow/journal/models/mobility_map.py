@@ -213,7 +213,7 @@ def advance(
     steps = np.zeros(time.size, dtype=np.int64)
     stop = kernel.march(
         motion, axes, units, time, np.ascontiguousarray(force),
-        np.require(speed, requirements="CW"),  # one that is read-only compiles anew
+        np.require(speed, requirements=("C", "W")),  # one that is read-only compiles anew
         start, math.sqrt(control.tolerance), _MOST, path, slip, steps, error,
     )  # fmt: skip
     if stop >= 0:

@@ -315,7 +315,7 @@ def _modulus() -> float:
 def film_arguments(history: RollerHistory) -> tuple[Array, ...]:
     """Arrays of a history that the compiled steps take."""
     return (
-        np.require(history.time, requirements="CW"),  # one that is read-only compiles anew
+        np.require(history.time, requirements=("C", "W")),  # one that is read-only compiles anew
         history.surface_speed,
         history.inner_speed - history.outer_speed,
         np.gradient(history.cage_speed, history.time) * math.cos(history.row.contact_angle),
