@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -50,7 +51,7 @@ class Line:
         loadflow.errors.InputError
             Misshapen or not finite values, moment and tilt together.
         """
-        rows = {name: _rows(name, value, shape) for name, value in given.items()}
+        rows: dict[str, Any] = {name: _rows(name, value, shape) for name, value in given.items()}
         line = cls(**rows, whirl=whirl)
         if line.moment is not None and line.tilt is not None:
             raise InputError("moment and tilt are both given: one follows from the other")

@@ -43,14 +43,14 @@ def equilibrium_rows(
     rows = []
     last: Solution | None = None
     for index, (load, omega) in enumerate(zip(loads, speeds.tolist())):
-        search = Search() if line.searches is None else line.searches[index]
+        search: Search = Search() if line.searches is None else line.searches[index]
         over = search.over
         if control.strict and search.why is not None and (over or search.why[0] == omega):
             raise SolverError(f"load {index}: {search.why[1]}")
         effort = search.effort(statics.film, control.max_iterations)
         on, near = statics, last
         if search.last is not None:
-            on, near = goes_on(*search.last, statics)
+            on, near = goes_on(search.last[0], search.last[1], statics)
         used, solution = on.resolve(index, load, omega, near, control, effort=effort)
         if not solution.converged and on is not statics:
             used, solution = statics.resolve(index, load, omega, last, control, effort=effort)
