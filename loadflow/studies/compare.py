@@ -291,7 +291,8 @@ def whirl(run: Finished, table: xr.Dataset, groups: Groups) -> Number:
     longest = extreme(run, table, groups, "whirl_share", "most", 100.0, "%", "half-speed whirl")
     if math.isnan(longest.value):
         return longest
-    return replace(longest, limit=100 * WHIRLS, holds=longest.value < 100 * WHIRLS)
+    longest = replace(longest, limit=100 * WHIRLS, holds=longest.value < 100 * WHIRLS)
+    return longest if longest.value else replace(longest, case="", place="")  # none whirls
 
 
 def _over_roughness(film: Number, at: Callable[[str], Journal | AnyAxial]) -> Number:

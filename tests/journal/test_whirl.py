@@ -181,5 +181,6 @@ def test_a_comparison_tells_the_load_case_that_whirls_longest():
     row = whirl_row([0.0, 0.3, 0.1])
     assert (row.value, row.case, row.place, row.holds) == (pytest.approx(30.0), "c1", "N", False)
     assert whirl_row([0.0, 0.04]).holds
+    assert (whirl_row([0.0, 0.0]).case, whirl_row([0.0, 0.0]).value) == ("", 0.0)
     assert QUANTITIES["whirl"].rule  # so that it is a reservation, and no limit
     assert whirl_row([None]).note.startswith("n/a: films at rest")
