@@ -354,7 +354,7 @@ BASES |= {
     "thrust against the motion": collar(
         {"profile": {"kind": "reversed", "profile": {"kind": "taper", "taper": 1e-4}}},
         back=COLLAR | {"profile": {"kind": "flat"}}),
-    "wear by energy": BASES["worn bores"] | {"wear": {
+    "wear by energy": BASES["worn bores"] | {"loads": {"dlc": ["1.2", "3.1"]}, "wear": {
         "law": {"energy_density": 1e15}, "samples": 10, "around": 36, "counts": {"3.1": 20.0}}},
     "design": {"candidates": {"one": {"N": {"kind": "journal"}, "N2": {"kind": "journal"}},
                               "two": {"N": {"kind": "journal"}, "N2": {"kind": "journal"}}},
@@ -542,7 +542,7 @@ OTHERS = {
     "journal.own": [
         {"N2": {"geometry": {"diameter": 3.0, "width": 2.0, "relative_clearance": 5e-4}}}
     ],
-    "wear.counts": [{"3.1": 5.0}],
+    "wear.counts": [{"1.1": 5.0}],
     "rolling.outer_ring.file": ["OTHER RING"],
     "rolling.outer_ring.first_angle": [0.2617993877991494],
     "rolling.outer_ring.axes": ["cartesian"],
