@@ -145,9 +145,14 @@ def test_of_models_that_do_not_go_together_none_is_taken(monkeypatch):
 def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_models():
     """A film grid that the ladder does not hold: the others decide the rest."""
     loose, unknown = (
-        make_plan(scene_of(accuracy=0.3, journal={"grid": grid, "motion": "transient"}))
+        make_plan(
+            scene_of(
+                accuracy=0.3, journal={"grid": grid, "motion": "transient"},
+                results=["journal.film", "rolling.life"],
+            )
+        )
         for grid in ([60, 20], [48, 16])
-    )
+    )  # fmt: skip
     assert loose.accurate
     assert not unknown.accurate
     assert set(unknown.errors["journal.film"].values()) == {None}
