@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import cube_file
 
 import loadflow as lf
@@ -15,6 +16,7 @@ from loadflow.planning.choice import choose
 from loadflow.planning.effects import Estimates
 from loadflow.planning.ladder import expected_seconds, gains, ladder, measured
 from loadflow.planning.plan import make_plan
+from loadflow.planning.shortfalls import found_shortfalls
 from loadflow.quantities import percent
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import BY_NAME, Scene, make_scene
@@ -299,6 +301,29 @@ def file_of(cube, folder, text=""):
     head = f'results = ["journal.film"]\naccuracy = 0.2\n[loads]\nfiles = ["{cube}"]\n'
     path.write_text(head + text, encoding="utf-8")
     return path
+
+
+def test_a_finer_model_that_what_cannot_be_helped_outweighs_is_told_beside_what_would_help():
+    """It is there, but not taken: equilibria are farther from the film in motion than its cells."""
+    wanted = make_scene(
+        {"name": "x", "accuracy": 0.05, "results": ["journal.film"], "shaft": {"two_point": {}},
+         "journal": {"motion": "quasi-static", "heat": None}}
+    )  # fmt: skip
+    coarse, *_, finest = choice.choices(wanted, models()["journal"])
+    names = ["motion of the film", "journal"]
+    check = xr.Dataset(
+        {"difference": ("check", [0.3, 0.08]), "allowed": ("check", [0.05, 0.05])},
+        {"stage": ("check", names), "result": ("check", ["journal.film"] * 2),
+         "quantity": ("check", ["minimum film"] * 2), "case": ("check", ["a, N"] * 2),
+         "against": ("check", ["the film in motion", "finer cells"])},
+    )  # fmt: skip
+    [said] = found_shortfalls(wanted, coarse, check)
+    finer = models()["journal"].finer(coarse)
+    assert said.endswith(f"; journal as {models()['journal'].text_of(finer)}")
+    while (finer := models()["journal"].finer(finest)) is not None:
+        finest = finer
+    [said] = found_shortfalls(wanted, finest, check)
+    assert said.endswith("; no finer one was measured")
 
 
 def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():

@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.scene.lifetime import Lifetime, check_counts
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages import wear
@@ -238,6 +239,14 @@ def test_a_number_of_a_load_case_that_is_not_there_says_which_is_meant():
         events_scene(per_year={"3.l": 10})
     with pytest.raises(InputError, match=r"wear\.counts: no load case '4\.1'"):
         make_scene({"name": "w", "loads": {"dlc": ["1.2", "3.1"]}, "wear": {"counts": {"4.1": 7}}})
+
+
+def test_a_number_whose_variants_all_have_their_own_is_refused():
+    own, there = {"3.1": 10.0, "3.1a": 1.0}, ["1.2", "3.1a"]
+    for lifetime, counts in ((Lifetime(per_year=own), {}), (Lifetime(), own)):
+        with pytest.raises(ValueError, match=r"nothing takes the number of 3\.1, .*leave it out"):
+            check_counts(lifetime, counts, there, "rayleigh")
+        check_counts(lifetime, counts, [*there, "3.1b"], "rayleigh")  # which takes it
 
 
 def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():

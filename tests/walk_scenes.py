@@ -75,7 +75,8 @@ BASES = {
         "shaft": {"two_point": {"beam": {"supports": [{}, {"takes_moment": True}]}}},
         "rolling": {"bearing": "N2", "geometry": TAPERED, "mounting": {
             "inner_share": 1.1}},
-        "dynamics": {"unbalance": 50.0}, "reduction": FEW, "results": ["rolling.dynamics"]},
+        "dynamics": {"unbalance": 50.0, "modes": 2}, "reduction": FEW,
+        "results": ["rolling.dynamics"]},
     "rolling dynamics, dry": {
         "shaft": {"moment": {}}, "rolling": {"bearing": "M", "geometry": BALLS},
         "dynamics": {"contact_model": "dry"}, "results": ["rolling.dynamics"]},

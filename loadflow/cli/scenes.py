@@ -169,7 +169,10 @@ def plan(
     there = finished_parts(folder, made)
     tables = results_of(folder) if all(there[s.name] == s.runs for s in made.steps) else None
     checked = (tables or {}).get("check")
-    short = [*([] if checked is None else found_shortfalls(wanted, checked)), *made.shortfalls]
+    short = [
+        *([] if checked is None else found_shortfalls(wanted, made.scene, checked)),
+        *made.shortfalls,
+    ]
     steps = [
         {
             "stage": step.name,

@@ -123,7 +123,7 @@ def warm_film(
         raise SolverError(
             f"{head}balance below {HOTTEST} K; at {at:.4g} K it is off by {left:.2g} K"
         )
-    return warmth.said_of(answered_rows(found, state), heat)
+    return warmth.said_of(answered_rows(found, state), heat, weights)
 
 
 @dataclass(frozen=True)
@@ -140,10 +140,10 @@ class _Warmth:
     jumps: NDArray[np.bool_]
     fails: Array
 
-    def said_of(self, film: Columns, heat: Heat) -> Columns:
-        """The film with its temperatures."""
+    def said_of(self, film: Columns, heat: Heat, share: Array | None) -> Columns:
+        """The film with its temperatures, each its own or that of the mean by `share`."""
         entering = heat.entering(film["side_flow"], self.temperature)
-        return _with_bounds(film, heat, self.temperature) | {
+        return _with_bounds(film, heat, self.temperature, share) | {
             "temperature": np.where(film["converged"], self.temperature, np.nan),
             "outlet_temperature": 2.0 * self.temperature - entering,
             "inlet_temperature": entering,
@@ -153,16 +153,25 @@ class _Warmth:
         }
 
 
-def _with_bounds(film: Columns, heat: Heat, temperature: Array) -> Columns:
+def _with_bounds(film: Columns, heat: Heat, temperature: Array, share: Array | None) -> Columns:
     """A film whose bounds of what cells do count its temperature, K: what less oil carries less.
 
-    The friction's own error needs no more: a film that rubs less warms less.
+    One temperature of all is that of their mean by `share`, and moves by the mean alone. The
+    friction's own error needs no more: a film that rubs less warms less.
     """
-    if "relative_grid_error" not in film:
+    if "relative_grid_error" not in film or not film["converged"].any():
         return film
-    bounds, power = film["relative_grid_error"], film["friction_power"]
-    less = film["side_flow"] / (1.0 + bounds[:, BOUNDED.index("side_flow")])
-    rise = heat.temperature(power, less, temperature) - temperature
+    bounds, flow = film["relative_grid_error"], film["side_flow"]
+    less = flow / (1.0 + bounds[:, BOUNDED.index("side_flow")])
+    columns = np.array([film["friction_power"], flow, less])
+    if share is not None:
+        there = np.where(film["converged"], share, 0.0)
+        if not there.any():
+            return film
+        columns = np.average(np.nan_to_num(columns), axis=1, weights=there)[:, None]
+    power, *flows = columns
+    cooler, warmer = (heat.temperature(power, each, temperature) for each in flows)
+    rise = warmer - cooler
     steep = heat.liquid.steepness(temperature)
     rise = rise / (1.0 + steep * np.maximum(temperature - heat.coldest, 0.0))
     narrow = film["minimum_film"] * film["eccentricity_ratio"]

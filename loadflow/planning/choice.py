@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import product
 from typing import Any
 
@@ -70,7 +71,8 @@ def choose(
     Choice
         Where an accuracy is out of reach, what is in reach is held: the rest of the error is kept
         within it. Where some errors were not measured, as few of these as can be; `met` is False in
-        both. So are effects left out that nobody measured and whose indicator is no bound.
+        both. As few effects as can be are left out that nobody measured and whose indicator is no
+        bound.
 
     Raises
     ------
@@ -171,12 +173,17 @@ class _Choosing:
             self.times[place] = expected_seconds(scene, name, self.cases)
         return self.times[place]
 
+    @cached_property
+    def effects(self) -> list[Effect]:
+        """Those that can be there in the scene, on or off."""
+        return concerned(self.scene, self.stages)
+
     def doubts(self, name: str, section: Any) -> int:
         """How many effects a section leaves out whose size nobody knows."""
         scene = self.with_sections({name: section})
         return sum(
             one.section == name and not one.is_on(scene) and self.known.is_doubtful(scene, one)
-            for one in concerned(self.scene, self.stages)
+            for one in self.effects
         )
 
     def worthwhile(self, name: str, alternatives: list[Any]) -> list[Any]:
@@ -214,7 +221,8 @@ class _Choosing:
             id(one): self.doubts(name, one) for name in alternatives for one in alternatives[name]
         }
         missing = np.isnan(errors).sum(axis=1)
-        missing += [sum(doubts[id(section)] for section in combined) for combined in picked]
+        if any(doubts.values()):
+            missing += [sum(doubts[id(section)] for section in combined) for combined in picked]
         fewest = missing == missing.min()
         known = np.nan_to_num(errors)
         least = known[fewest].min(axis=0, initial=np.inf)

@@ -59,13 +59,15 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
     return said
 
 
-def found_shortfalls(wanted: Scene, check: xr.Dataset) -> list[str]:
+def found_shortfalls(wanted: Scene, ran: Scene, check: xr.Dataset) -> list[str]:
     """Say of each result that a finished run found farther off than asked for how far, and why.
 
     Parameters
     ----------
     wanted : Scene
         As the user wrote it.
+    ran : Scene
+        With the models that the run had.
     check : xarray.Dataset
         What the check at the end of the run found, see `loadflow.planning.verification`.
 
@@ -86,7 +88,7 @@ def found_shortfalls(wanted: Scene, check: xr.Dataset) -> list[str]:
         for quantity, error in zip(rows["quantity"].values.tolist(), rows["difference"].values):
             sizes.setdefault(quantity, float(error))
         off = ", ".join(f"{name} by {_size(error)}" for name, error in sizes.items())
-        helps = [_help(wanted, name) for name in rows["stage"].values.tolist()]
+        helps = [_help(wanted, ran, name) for name in rows["stage"].values.tolist()]
         said.append(
             f"{result}: the check found it off in {off}, {_asked(wanted, wanted.allowed(result))}; "
             f"most beside {worst['against'].item()} ({worst['case'].item()}); "
@@ -99,10 +101,14 @@ def _size(error: float) -> str:
     return percent(error) if np.isfinite(error) else "all of it, as one film alone was found"
 
 
-def _help(wanted: Scene, name: str) -> str:
+def _help(wanted: Scene, ran: Scene, name: str) -> str:
     """What would help against a model, or an effect left out, of that name."""
     effect = next((one for one in EFFECTS if one.name == name), None)
-    return effect.needs if effect else _finer_in_words(wanted, models()[name])
+    if effect is not None:
+        return effect.needs
+    # a finer one is not taken where what cannot be helped is larger
+    finer = models()[name].finer(ran) if len(choices(wanted, models()[name])) > 1 else None
+    return _finer_in_words(wanted, models()[name]) if finer is None else _rung_in_words(finer, name)
 
 
 def _unknown_in_words(wanted: Scene, choice: Choice, part: Part) -> str:

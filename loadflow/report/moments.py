@@ -164,5 +164,10 @@ def _of_samples(
         places = np.searchsorted(middles, part["time"].values)
         lines[what][places] = values[begin : begin + count]
         begin += count
-    few = max(part.sizes["sample"] for part in own.values()) < 0.5 * time.size
-    yield Panel(f"{said}, {unit}", lines, dots=few)
+    yield Panel(f"{said}, {unit}", lines, dots=any(map(_stand_alone, lines.values())))
+
+
+def _stand_alone(values: np.ndarray) -> bool:
+    """Whether some values have none beside them, so that no line shows them."""
+    known = np.pad(np.isfinite(values), 1)
+    return bool((known[1:-1] & ~known[:-2] & ~known[2:]).any())

@@ -235,7 +235,7 @@ def _run(
         if profile:
             profile.add_wall("result", time.perf_counter() - begun)
         checked = tree.children.get(check.CHECK.name)
-        found = [] if checked is None else found_shortfalls(scene, checked.to_dataset())
+        found = [] if checked is None else found_shortfalls(scene, plan.scene, checked.to_dataset())
         manifest["shortfalls"] = short = (*found, *plan.shortfalls)
         record(folder, manifest, timing, failures, workers=where.workers, wall=wall)
         can, rungs = partial(can_refine, scene, plan.scene), partial(rungs_up, plan.scene)

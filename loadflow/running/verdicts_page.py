@@ -64,7 +64,7 @@ _FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
 
 
 def _verdict_row(verdict: Verdict) -> list[str]:
-    limit, at = "", verdict.case
+    limit, moment = "", moment_of(verdict)
     size = largest(verdict.value, verdict.limit)
     film = verdict.unit == "m" and size < _FILMS
     factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
@@ -73,12 +73,11 @@ def _verdict_row(verdict: Verdict) -> list[str]:
     if np.isfinite(verdict.limit):
         sign = "≤" if verdict.sense == "at most" else "≥"
         limit = f"{sign} {four_digits(factor * (verdict.limit - zero))} {scale}".rstrip()
-    if np.isfinite(verdict.time):
-        at += f", {verdict.time:.1f} s"
     value, margin = (
         "-" if np.isnan(number) else f"{four_digits(factor * number)} {one}".rstrip()
         for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
     )
+    at = "" if moment is None else moment.within
     said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
     return [verdict.subject, verdict.quantity, value, *said]
 

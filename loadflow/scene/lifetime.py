@@ -9,7 +9,7 @@ from pydantic import BaseModel, Field
 
 from loadflow.numerics.fields import none_such
 from loadflow.scene.section import Section
-from loadflow.wind.cases import by_load_case
+from loadflow.wind.cases import uncounted
 
 Count = Annotated[float, Field(ge=0, le=1e9)]
 
@@ -60,8 +60,14 @@ def check_counts(
     """
     known = sorted(set(there))
     for key, told in (("lifetime.per_year", lifetime.per_year), ("wear.counts", starts)):
-        if missing := [dlc for dlc in told if not by_load_case({dlc: 1.0}, known)]:
+        idle = uncounted(told, known)
+        if missing := [dlc for dlc in idle if uncounted([dlc], known)]:
             raise ValueError(f"{key}: {none_such('load case', missing, known)}")
+        if idle:
+            raise ValueError(
+                f"{key}: nothing takes the number of {', '.join(idle)}, as all its variants or "
+                "words have one of their own; leave it out"
+            )
     if lifetime.per_year and weights == "given":
         raise ValueError(
             'lifetime.per_year: loads.weights = "given" takes the shares of the files; keep one'

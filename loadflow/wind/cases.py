@@ -6,7 +6,7 @@ realisations of some cases) the row follows common design load bases and can be 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from math import ceil, floor
 from string import ascii_lowercase
@@ -225,9 +225,33 @@ def by_load_case(told: Mapping[str, float], there: Iterable[str]) -> dict[str, f
     names = sorted(set(there))
     found: dict[str, float] = {}
     for dlc, number in told.items():
-        own = [name for name in names if name == dlc or (name not in told and _same(name, dlc))]
+        own = _counted(dlc, told, names)
         found |= dict.fromkeys(own, number / max(len(own), 1))
     return found
+
+
+def uncounted(told: Iterable[str], there: Iterable[str]) -> list[str]:
+    """Load cases, variants and words whose number nothing takes: not there, or all with their own.
+
+    Parameters
+    ----------
+    told : iterable of str
+        Those with a number, see `by_load_case`.
+    there : iterable of str
+        Those that there are.
+
+    Examples
+    --------
+    >>> uncounted(["3.1", "3.1a", "4.1"], ["3.1a"])
+    ['3.1', '4.1']
+    """
+    named, names = [*told], sorted(set(there))
+    return [dlc for dlc in named if not _counted(dlc, named, names)]
+
+
+def _counted(dlc: str, told: Collection[str], names: Iterable[str]) -> list[str]:
+    """Those of `names` that the number of a load case, of all that are told, is of."""
+    return [name for name in names if name == dlc or (name not in told and _same(name, dlc))]
 
 
 def _same(name: str, dlc: str) -> bool:

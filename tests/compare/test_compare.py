@@ -718,6 +718,28 @@ def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series(
     assert whole.x.size == time.size
 
 
+@pytest.mark.parametrize(("every", "dots"), [(1, False), (2, True), (3, True)])
+def test_films_of_every_other_sample_are_seen_as_dots_and_those_of_all_as_a_line(every, dots):
+    """A line has no gaps: values with nothing beside them would not be drawn."""
+    time = np.arange(0.0, 120.0, 0.1)
+    force = np.ones((3, time.size))
+    series = xr.Dataset(
+        {"speed": ("time", 1.2 + 0.0 * time, {"units": "rad/s"}),
+         "force": (("axis", "time"), force, {"units": "N"}),
+         "moment": (("axis", "time"), 0.0 * force, {"units": "N m"})},
+        {"time": time},
+    )  # fmt: skip
+    pressure = ("sample", 1e6 + time[::every], {"units": "Pa"})
+    film = xr.Dataset({"time": ("sample", time[::every]), "maximum_pressure": pressure})
+    few = film.isel(sample=[3, 300 // every])
+    alone, beside = (
+        moment_chart(Moment("a", 30.0, "N"), series, samples, "c").panels[-1].dots
+        for samples in ({"journal bearing": film}, {"journal bearing": film, "pads": few})
+    )
+    assert alone == dots
+    assert beside  # the few are seen, too
+
+
 def judged_of(name, energy, kind="rolling", **own):
     known = {"energy": Number(energy, "MWh"),
              "load_factor": Number(1.6, "×", limit=1.0, holds=True)}  # fmt: skip

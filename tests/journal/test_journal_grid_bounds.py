@@ -79,6 +79,19 @@ def test_a_warm_film_bounds_what_its_cells_do_to_its_temperature(case):
     assert own.grid_error.friction_power < 0.5 * own.friction_power
 
 
+def test_films_of_one_mean_temperature_count_what_the_cells_do_to_the_mean():
+    """The friction of each is far off that mean, which is no error of the cells."""
+    load, speed = np.array([[800.0, 100.0], [4e3, 500.0], [8e3, 1e3]]), np.array([5.0, 25.0, 50.0])
+    given = {"edge_pressure": 1e5, "inlet": None, "heat": Heat(THINNING)}
+    own, fine = (
+        BEARING.equilibrium(load, speed, Film(grid=cells, **given), weights=np.ones(3))
+        for cells in ((48, 8), (144, 24))
+    )
+    error = np.abs(own.friction_power - fine.friction_power)
+    assert np.all(error < own.grid_error.friction_power)
+    assert np.all(own.grid_error.friction_power < 0.1 * own.friction_power)
+
+
 @pytest.mark.filterwarnings("ignore:the cells do not resolve")
 def test_a_warm_film_at_a_given_position_bounds_its_force():
     given = {"edge_pressure": 1e5, "inlet": None, **OVER_AREA}

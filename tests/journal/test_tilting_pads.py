@@ -22,6 +22,9 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.pad_curve import pad_curve
 from loadflow.journal.line import Line
+from loadflow.journal.models import composed_film as at
+from loadflow.journal.models.composed_path import Drive, march_of
+from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.pad_estimate import on_pads
 from loadflow.journal.solvers.pads import solve_with_pads
@@ -186,3 +189,20 @@ def test_a_load_at_which_a_film_takes_hold_of_a_pad_is_refused_by_its_name() -> 
         held = point.bearing.pressure(beside * point.gap, point.speed, point.oil, **point.film)
         missing.append((point.force - held.force) / point.load)
     assert (missing @ np.transpose(missing)).min() < -0.1  # the other way from one to another
+
+
+def test_a_path_that_stops_on_pads_meets_these_as_they_are_tilted() -> None:
+    """Flat, the ones that have turned into its way would stand off the shaft."""
+    film, count = replace(FILM, rung="reduced"), 3
+    load, line = np.full((count, 2), (1e6, 0.0)), Line.of((count,))
+    given = np.linspace(0.0, 0.1, count), load, np.full(count, SPEED), line, LIMITS
+    march = march_of(Drive(BEARING, film, *given), Steps())
+
+    def told(x: float, tilts: float) -> str:
+        march.rows[1, at.X] = x
+        march.tried.tilts[:] = tilts
+        return str(march.stops(1, 2))
+
+    assert "touches the bore" not in told(0.3, 0.0)
+    assert "touches the bore" in told(0.3, 2.0)
+    assert "touches the bore, narrowest gap -" in told(1.05, 0.0)

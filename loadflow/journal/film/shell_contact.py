@@ -51,7 +51,8 @@ class ShellContact(YieldingNodeLoad):
         self._unit_growth = 0.0
         self._touching = np.zeros(0, dtype=np.int64)
         size = int(np.prod(mesh.shape))
-        self._known, self._by_cells = np.zeros(size, dtype=bool), np.empty((size, size))
+        # rows of cells that have touched: of all cells they would be a gigabyte on fine grids
+        self._row, self._by_cells = np.full(size, -1), np.empty((0, size))
         self.by_place = np.zeros((self._modes.reach.shape[0], *mesh.shape))
 
     def settle(self, pressure: Array, position: Array, unit: float) -> Array:
@@ -133,13 +134,14 @@ class ShellContact(YieldingNodeLoad):
 
         It is that of the shell alone, and kept: cells touch again and again.
         """
-        new = cells[~self._known[cells]]
+        new = cells[self._row[cells] < 0]
         if new.size:
-            one = np.zeros((new.size, self._known.size))
+            one = np.zeros((new.size, self._row.size))
             one[np.arange(new.size), new] = 1.0
             grown = self._compliance.growth(one.reshape(new.size, *self._shape))
-            self._by_cells[new], self._known[new] = grown.reshape(one.shape), True
-        return self._by_cells[cells]
+            self._row[new] = len(self._by_cells) + np.arange(new.size)
+            self._by_cells = np.concatenate([self._by_cells, grown.reshape(one.shape)])
+        return self._by_cells[self._row[cells]]
 
     def _solved(self, growth: Array) -> Array:
         """Growth (l, nx, nz) of a shell that asperities press, by that of one they do not."""

@@ -21,7 +21,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
-from loadflow.journal.models._pad_kernels import LAST
+from loadflow.journal.models._pad_kernels import LAST, NEXT
 from loadflow.journal.models._pad_loops import solve_on_pads
 from loadflow.journal.models.composed_creep import Creep
 from loadflow.journal.models.composed_model import (
@@ -277,8 +277,12 @@ class March:
         round_ = not (place[2:].any() or bend.any() or film.ring.shaped)
         if round_ or film.give > 0.0 or film.modes.on or film.rough.size > 0.0:
             return ""
-        least = float(self.model.least(place[None], bend[None])[0])
+        least = self._narrowest(place, bend)
         return touched(least, self.drive.bearing.clearance) if least < TOUCHING else ""
+
+    def _narrowest(self, place: Array, bend: Array) -> float:
+        """Narrowest gap, clearances, of a rigid bore at a `place` (4,) that was tried last."""
+        return float(self.model.least(place[None], bend[None])[0])
 
     def results(self) -> dict[str, Any]:
         """Variables of the path so far."""
@@ -297,6 +301,7 @@ class _OnPads(March):
         self.first, self.gap = first_on_pads(*given, limits, steps.start)
         self.tilts = np.zeros((drive.time.size, self.gap.pads.size))
         self.pads: dict[int, tuple[Pads, PadWork]] = {}
+        self.tried = self.pads_at(self.levels[0])[1]  # at which the last steps were
 
     def pads_at(self, level: int) -> tuple[Pads, PadWork]:
         """Pads of the film of a level."""
@@ -307,9 +312,10 @@ class _OnPads(March):
         return self.pads[level]
 
     def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
-        model, drive = self.drive.film(level), self.drive
+        model, drive, both = self.drive.film(level), self.drive, self.pads_at(level)
+        self.tried = both[1]
         solved = solve_on_pads(
-            model.film, model.work, *self.pads_at(level), place, size, begin, drive.time[:end],
+            model.film, model.work, *both, place, size, begin, drive.time[:end],
             self.loads[:end], self.lines[:end], drive.speed[:end], drive.control.tolerance, most,
             self.accuracy, self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
         )  # fmt: skip
@@ -337,11 +343,17 @@ class _OnPads(March):
         return after._replace(tilts=pad_work.tilts.copy(), on=pad_work.on.copy())
 
     def least(self, state: State) -> float:
-        model = self.drive.film(state.level)
-        centres = model.centres(state.place[None], state.past[None, 2:4])
         assert state.tilts is not None
-        own, depth = state.tilts[None, LAST], model.film.places.depth
-        return float(narrowest_on_pads(self.drive.bearing, centres, depth, own)[0])
+        model = self.drive.film(state.level)
+        return self._on_tilted(model, state.place, state.past[2:4], state.tilts[LAST])
+
+    def _narrowest(self, place: Array, bend: Array) -> float:
+        return self._on_tilted(self.model, place, bend, self.tried.tilts[NEXT])
+
+    def _on_tilted(self, model: ComposedFilm, place: Array, bend: Array, tilts: Array) -> float:
+        """Narrowest gap, clearances, of pads of `tilts` (p,)."""
+        centres, depth = model.centres(place[None], bend[None]), model.film.places.depth
+        return float(narrowest_on_pads(self.drive.bearing, centres, depth, tilts[None])[0])
 
     def results(self) -> dict[str, Any]:
         tilts = self.tilts * self.drive.bearing.relative_clearance

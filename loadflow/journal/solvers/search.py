@@ -30,6 +30,11 @@ class Search:
     ----------
     efforts : list of Effort
         The one, once a film has been asked for. Loads of one question share a list.
+    together : bool
+        Whether other loads share the effort: only what is sought in vain is then of it, so that
+        many loads that are found leave as much as few.
+    asked : float
+        What was left as the last film was asked for.
     last : Statics and Solution, optional
         Film found last, on its cells.
     why : tuple of float and str, optional
@@ -37,6 +42,8 @@ class Search:
     """
 
     efforts: list[Effort] = field(default_factory=list)
+    together: bool = False
+    asked: float = 0.0
     last: tuple[Statics, Solution] | None = None
     why: tuple[float, str] | None = None
 
@@ -50,15 +57,20 @@ class Search:
         if not self.efforts:
             self.efforts.append(Effort.of(film, max_iterations))
         left = self.efforts[0]
-        left.before = left.spent
+        left.before, self.asked = left.spent, left.left
         return left
+
+    def give_back(self) -> None:
+        """Leave to other loads that share the effort what the last film took, as it was found."""
+        if self.together:
+            self.efforts[0].left = self.asked
 
 
 def searches(count: int, together: bool = False) -> NDArray[np.object_]:
     """Searches (count,) of some loads, with one effort for all of them `together` or for each."""
     every, shared = np.empty(count, dtype=object), list[Effort]()
     for index in range(count):
-        every[index] = Search(shared) if together else Search()
+        every[index] = Search(shared, together=True) if together else Search()
     return every
 
 

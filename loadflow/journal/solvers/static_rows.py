@@ -65,6 +65,7 @@ def equilibrium_rows(
                 raise SolverError(f"load {index}: {search.why[1]}")
         else:
             search.last = used, solution
+            search.give_back()
             last = solution if used is statics else last
         rows.append(
             static_row(bearing, used.film, used.gap, load, options.liquid, solution, line.whirl)

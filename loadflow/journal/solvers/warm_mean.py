@@ -195,7 +195,7 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
     some = SeriesLoads.of(len(loads))
     each = replace(control, strict=False)
     found: dict[int, Solution] = {}
-    search = Search()  # one effort for all loads at all temperatures
+    search = Search(together=True)  # one effort for all loads at all temperatures
 
     def film_of(before: Solution | None) -> Solution:
         spent, worst = 0, no_film(statics.film)
@@ -210,6 +210,7 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
             found.pop(index, None)
             if solution.converged:
                 found[index] = worst = beside = solution
+                search.give_back()
             elif sought:
                 some.why = f"; {statics.message(solution, loads[index])}"
         some.leave(set(asked) - set(found))
