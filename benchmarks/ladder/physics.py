@@ -65,7 +65,9 @@ def ten_scenes() -> dict[str, Scene]:
         "power production, 5 MW": scene_of(usual, loads=production),
         "power production, 15 MW": scene_of(large, loads=production),
         "20 % asked for, 5 MW": scene_of(usual, loads=production, accuracy=0.2),
-        "stiff housing, sized bearings, 5 MW": scene_of(usual, loads=production, sized=True),
+        "stiff housing, sized bearings, 5 MW": scene_of(
+            usual, loads=production, sized=True, film={"self_aligning": True}
+        ),
         "soft housing (10 µm/MPa), 5 MW": scene_of(usual, loads=production, film={"shell": soft}),
         "start, 5 MW": scene_of(usual, loads={"dlc": "3.1", "wind_speeds": [4.0]}, **events),
         "stop, 5 MW": scene_of(usual, loads={"dlc": "4.1", "wind_speeds": [24.0]}, **events),

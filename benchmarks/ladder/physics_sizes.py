@@ -103,9 +103,9 @@ def scene_of(
 
     The journal bearings are those of the main job, their diameter and width in proportion to the
     rotor's, as far as they fit beside each other, or `sized`: those of the package for this
-    turbine. `film` are keys of them (None: left out), `supports` those of the beam. The ball
-    bearing is the sized one; its rings are square, with sides of 2.4 balls. Beside the others it
-    stands at M, or takes the place of one of them.
+    turbine. Their shells stay, as tilt is one of the effects. `film` are keys of them (None: left
+    out), `supports` those of the beam. The ball bearing is the sized one; its rings are square,
+    with sides of 2.4 balls. Beside the others it stands at M, or takes the place of one of them.
     """
     known = machine(turbine)
     shaft = {place: dict(keys) for place, keys in known["shaft"].items()}
@@ -134,8 +134,8 @@ def scene_of(
     bearings = {
         place: {
             key: value
-            for key, value in (journal[place] | (film or {})).items()
-            if value is not None and key != "self_aligning"  # tilt is one of the effects
+            for key, value in ({**journal[place], "self_aligning": None} | (film or {})).items()
+            if value is not None
         }
         for place in ("N", "N2")
     }
