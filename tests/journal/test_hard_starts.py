@@ -6,6 +6,7 @@ Draws of `benchmarks.robustness.families`, each named by what it needs.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -412,12 +413,26 @@ def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
 def test_an_orbit_that_was_not_tried_on_more_cells_says_which_to_ask_for(work, tried):
     asked: list[int] = []
 
-    def path(film: Film) -> Any:
-        asked.append(film.cells[0])
+    def path(films: Sequence[Film]) -> Any:
+        asked.append(films[0].cells[0])
         raise OrbitStopped("orbit stops", 2.5, work)
 
     with pytest.raises(OrbitStopped, match="orbit stops") as told:
-        on_enough_cells(Film(Lubricant(0.05), grid=(60, 20)), path, 240)
+        on_enough_cells([Film(Lubricant(0.05), grid=(60, 20))], path, [240])
     assert asked == tried
     assert told.value.time == 2.5
     assert ("grid = [120, 20]" in str(told.value)) == (tried == [60])
+
+
+def test_a_shaft_in_two_films_has_more_cells_in_that_which_may_ask_for_them():
+    """What these fail by is not told: the orbit stops on the cells that were asked for."""
+    asked: list[list[int]] = []
+
+    def path(films: Sequence[Film]) -> Any:
+        asked.append([film.cells[0] for film in films])
+        raise OrbitStopped("orbit stops", 2.5) if len(asked) == 1 else SolverError("no pad holds")
+
+    films = [Film(Lubricant(0.05), grid=(cells, 20)) for cells in (60, 48)]
+    with pytest.raises(OrbitStopped, match="orbit stops"):
+        on_enough_cells(films, path, [240, 0])
+    assert asked == [[60, 48], [120, 48], [240, 48]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -87,13 +87,15 @@ def orbit(
     steps: Steps,
 ) -> xr.Dataset:
     """Path of the shaft by implicit steps, or its closed path."""
-
-    def path(film: Film) -> xr.Dataset:
-        return _path(bearing, film, time, force, speed, line, limits, steps)
-
+    given = time, force, speed, line, limits, steps
     if not film.law.keeps_fill:
-        return path(film)
-    return on_enough_cells(film, path, _MOST_AROUND)
+        return _path(bearing, film, *given)
+
+    def path(films: Sequence[Film]) -> xr.Dataset:
+        (on,) = films
+        return _path(bearing, on, *given).assign_attrs(cells_around=on.cells[0])
+
+    return on_enough_cells([film], path, [_MOST_AROUND])
 
 
 def _path(

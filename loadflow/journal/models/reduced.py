@@ -8,7 +8,7 @@ gives way or grooves of a supply is one of `loadflow.journal.models.composed`.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -202,10 +202,12 @@ def orbit(
         cells around.
     """
 
-    def path(film: Film) -> xr.Dataset:
-        return _path(bearing, film, time, force, speed, line, control, steps)
+    def path(films: Sequence[Film]) -> xr.Dataset:
+        (on,) = films
+        found = _path(bearing, on, time, force, speed, line, control, steps)
+        return found.assign_attrs(cells_around=on.cells[0])
 
-    return on_enough_cells(options, path, _MOST_AROUND)
+    return on_enough_cells([options], path, [_MOST_AROUND])
 
 
 def _path(

@@ -35,6 +35,7 @@ from loadflow.journal.models.composed_model import (
 )
 from loadflow.journal.models.composed_pads import first_on_pads
 from loadflow.journal.models.composed_path import STRETCH
+from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.shared_sides import (
     COORDINATES,
@@ -121,23 +122,13 @@ def follow_shared(
         No film to begin with, or a step that fails even when cut to 1/256; on tilting pads on more
         cells around, too, which each path tells as `cells_around`.
     """
-    while True:
-        march = _March(bearings, options, time, speed, lying, control, temperature)
-        try:
-            return _followed(march, rests)
-        except OrbitStopped:
-            finer = [_on_more_cells(*one) for one in zip(bearings, options)]
-            if finer == [*options]:
-                raise
-            options = finer
 
+    def path(films: Sequence[Film]) -> SharedPath:
+        return _followed(_March(bearings, films, time, speed, lying, control, temperature), rests)
 
-def _on_more_cells(bearing: JournalGeometry, film: Film) -> Film:
-    """A film on twice the cells around, if ends of pads may have met the shaft between these."""
-    around, across = film.cells
-    if not Bore.of(bearing).pads or 2 * around > _MOST_AROUND:
-        return film
-    return replace(film, grid=(2 * around, across))
+    # only ends of pads may meet the shaft between cells
+    most = [_MOST_AROUND if Bore.of(bearing).pads else 0 for bearing in bearings]
+    return on_enough_cells(options, path, most)
 
 
 def _followed(march: _March, rests: bool) -> SharedPath:
