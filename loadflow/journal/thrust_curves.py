@@ -158,7 +158,7 @@ class CollarCurves:
         require(bool(np.isfinite(speeds).all()), "speed", speed, "rad/s, finite")
         found = {name: np.full(loads.size, np.nan) for name in ("gap", "residual")}
         steps, carried = np.zeros(loads.size, np.int64), np.zeros(loads.size, bool)
-        values = np.full((5, loads.size), np.nan)
+        values = np.full((_POWERS.size, loads.size), np.nan)
         turning, error = speeds != 0.0, 0.0
         touching, why = ~turning, None
         for backwards in (False, True):
@@ -279,7 +279,7 @@ class _Series:
     def __call__(self, gap: Array, some: NDArray[np.int64] | slice = slice(None)) -> Array:
         """Table's rows (5, n) at gaps (n,), m, of `some` of the series."""
         x, first, weights = np.log(gap), self._first[some], self._weights[:, some]
-        found = np.empty((5, gap.size))
+        found = np.empty((_POWERS.size, gap.size))
         for k in np.unique(first):
             here = first == k
             for number, column in enumerate(self._columns[k]):

@@ -275,7 +275,7 @@ class March:
         place = self.rows[sample, [at.X, at.Y, at.TILT_X, at.TILT_Y]]
         bend, film = self.lines[sample, 2:], self.model.film
         round_ = not (place[2:].any() or bend.any() or film.ring.shaped)
-        if round_ or film.give > 0.0 or film.modes.on or film.rough.size > 0.0:
+        if round_ or film.give > 0.0 or film.rough.size > 0.0:
             return ""
         least = self._narrowest(place, bend)
         return touched(least, self.drive.bearing.clearance) if least < TOUCHING else ""

@@ -202,11 +202,8 @@ class Statics:
         From the `last` solution, if that is near, and from a first position; if `in_steps` also by
         steps of the load, as long as the `effort` lasts.
         """
-        film, gap, effort = (
-            self.film,
-            self.gap,
-            effort or Effort.of(self.film, control.max_iterations),
-        )
+        film, gap = self.film, self.gap
+        effort = effort or Effort.of(film, control.max_iterations)
         film.relax()
         film.set_speed(omega)
         force = self._force(index, load)
