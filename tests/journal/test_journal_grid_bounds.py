@@ -80,8 +80,11 @@ def test_a_warm_film_bounds_what_its_cells_do_to_its_temperature(case):
 
 
 def test_films_of_one_mean_temperature_count_what_the_cells_do_to_the_mean():
-    """The friction of each is far off that mean, which is no error of the cells."""
-    load, speed = np.array([[800.0, 100.0], [4e3, 500.0], [8e3, 1e3]]), np.array([5.0, 25.0, 50.0])
+    """The friction of each is far off that mean, which is no error of the cells.
+
+    Counted as one, it would be 37 % of the second; its own bound, without heat, is too small.
+    """
+    load, speed = np.array([[2e3, 250.0], [800.0, 100.0], [8e3, 1e3]]), np.array([25.0, 75.0, 5.0])
     given = {"edge_pressure": 1e5, "inlet": None, "heat": Heat(THINNING)}
     own, fine = (
         BEARING.equilibrium(load, speed, Film(grid=cells, **given), weights=np.ones(3))
