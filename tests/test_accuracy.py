@@ -190,7 +190,7 @@ def test_given_loads_owe_nothing_to_a_wind(cube):
     assert "wind" not in plan.steps[0].rung
 
 
-def test_the_error_by_change_friction_is_known_and_grows_with_its_step():
+def test_the_error_of_friction_is_known_and_grows_with_its_step():
     errors = [
         expected_errors(scene_of(results=["rolling.friction"], friction={"step": step}))
         for step in (0.1, 0.4, 0.3)
@@ -212,7 +212,7 @@ def test_only_the_named_result_must_be_accurate():
     assert film_seconds(strict.scene) > 1.5 * film_seconds(loose.scene)
 
 
-def test_an_error_by_change_the_load_reaches_the_film_through_its_gain():
+def test_an_error_of_the_load_reaches_the_film_through_its_gain():
     scene = scene_of(loads={"rung": "tables"}, results=["journal.film"])
     top = scene_of(loads={"rung": "tower"}, results=["journal.film"])
     added = {

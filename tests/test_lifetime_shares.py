@@ -101,6 +101,7 @@ def test_nothing_but_counted_events_takes_their_time_alone():
     [
         (["1.4", "1.5"], {}, "1.4, 1.5 has a share"),
         (["1.2", "3.1"], {"4.1": 10}, "'4.1'"),
+        (["1.2", "3.1a"], {"3.1": 10, "3.1a": 1}, r"nothing takes the number of 3\.1, "),
         (["1.2", "3.1"], {"3.1": -1}, "3.1 = -1"),
         (["1.2", "3.1"], {"3.1": math.nan}, "3.1 = nan"),
         (["1.2", "3.1"], {"3.1": 1e6}, "take 9.51 years"),
@@ -244,7 +245,7 @@ def test_a_number_of_a_load_case_that_is_not_there_says_which_is_meant():
 def test_a_number_whose_variants_all_have_their_own_is_refused():
     own, there = {"3.1": 10.0, "3.1a": 1.0}, ["1.2", "3.1a"]
     for lifetime, counts in ((Lifetime(per_year=own), {}), (Lifetime(), own)):
-        with pytest.raises(ValueError, match=r"nothing takes the number of 3\.1, .*leave it out"):
+        with pytest.raises(InputError, match=r"nothing takes the number of 3\.1, .*leave it out"):
             check_counts(lifetime, counts, there, "rayleigh")
         check_counts(lifetime, counts, [*there, "3.1b"], "rayleigh")  # which takes it
 

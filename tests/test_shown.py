@@ -4,6 +4,7 @@ import inspect
 import re
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pint
@@ -281,10 +282,11 @@ def test_a_contact_is_drawn_over_its_ellipse_and_a_worn_bore_where_it_is_worn():
                                  / 1e6, rel=1e-3)  # fmt: skip
     worn = worn_bore()
     contour, way = worn.plot().axes[:2]
-    if worn.z.size > 1:
-        assert contour.collections[0].get_array().max() == pytest.approx(1e6 * worn.deepest)
-    else:
-        assert contour.lines[0].get_ydata().max() == pytest.approx(1e6 * worn.deepest)
+    assert contour.lines[0].get_ydata().max() == pytest.approx(1e6 * worn.deepest)
+    deeper = np.column_stack([worn.depth, 2 * worn.depth])  # on one end
+    wide = replace(worn, z=np.array([-0.02, 0.02]), depth=deeper).plot().axes[0].collections[0]
+    assert wide.get_array().max() == pytest.approx(2e6 * worn.deepest)
+    assert wide.get_array().shape == (2, worn.angle.size)
     assert way.lines[0].get_ydata()[-1] == pytest.approx(1e6 * worn.deepest, rel=1e-6)
     data = worn.to_dataset()
     assert float(data["depth_of_bore"].max()) == worn.deepest > 0

@@ -17,7 +17,7 @@ from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import Effect
-from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.effects.registry import EFFECTS, effect_named
 from loadflow.stages.registry import STAGES, giving, models
 from loadflow.stages.stage import Link, Rungs
 
@@ -213,17 +213,18 @@ class _Choosing:
     def best(self, alternatives: dict[str, list[Any]]) -> tuple[Scene, str]:
         """The cheapest combination that is accurate enough and a valid scene, and why.
 
-        Where none is valid that is accurate enough, the most accurate one of the others.
+        Where none is valid that is accurate enough, the most accurate one of the others. What
+        nobody knows counts alike: an error, or an effect that a section leaves out in doubt.
         """
         picked, errors = self._candidates(alternatives)
         allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
         doubts = {
             id(one): self.doubts(name, one) for name in alternatives for one in alternatives[name]
         }
-        missing = np.isnan(errors).sum(axis=1)
+        unknown = np.isnan(errors).sum(axis=1)
         if any(doubts.values()):
-            missing += [sum(doubts[id(section)] for section in combined) for combined in picked]
-        fewest = missing == missing.min()
+            unknown += [sum(doubts[id(section)] for section in combined) for combined in picked]
+        fewest = unknown == unknown.min()
         known = np.nan_to_num(errors)
         least = known[fewest].min(axis=0, initial=np.inf)
         beyond = least > allowed
@@ -237,7 +238,7 @@ class _Choosing:
             return self.seconds(scene_of(k)), float(known[k].sum())
 
         def off(k: int) -> tuple[int, float, float]:
-            return int(missing[k]), float(excess[k]), float(known[k].sum())
+            return int(unknown[k]), float(excess[k]), float(known[k].sum())
 
         # sections are chosen one by one: some do not go together, as a shaft that films hold
         # against its tilt and films without it
@@ -360,7 +361,7 @@ def _holds(scene: Scene, errors: Errors) -> bool:
 
 def finer(scene: Scene, name: str) -> Scene | None:
     """Return the scene with the next more accurate model, or with an effect on; None at the top."""
-    effect = _effect(name)
+    effect = effect_named(name)
     if effect is not None:
         return None if effect.is_on(scene) else switched(scene, effect, True)
     rungs = models().get(name)
@@ -381,17 +382,13 @@ def can_refine(wanted: Scene, chosen: Scene, name: str) -> bool:
     """Whether a model or an effect is the plan's to choose, and there is a better one."""
     if not wanted.asks:
         return False
-    effect = _effect(name)
+    effect = effect_named(name)
     if effect is None and name not in models():
         return False
     is_open = effect.is_open(wanted) if effect else len(choices(wanted, models()[name])) > 1
     return is_open and finer(chosen, name) is not None
 
 
-def _effect(name: str) -> Effect | None:
-    return next((effect for effect in EFFECTS if effect.name == name), None)
-
-
 def _section(name: str) -> str:
-    effect = _effect(name)
+    effect = effect_named(name)
     return effect.section if effect else models()[name].section

@@ -10,7 +10,7 @@ from loadflow.planning.choice import Choice
 from loadflow.planning.ladder import choices
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
-from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.effects.registry import effect_named
 from loadflow.stages.registry import giving, models
 from loadflow.stages.stage import Rungs
 
@@ -103,7 +103,7 @@ def _size(error: float) -> str:
 
 def _help(wanted: Scene, ran: Scene, name: str) -> str:
     """What would help against a model, or an effect left out, of that name."""
-    effect = next((one for one in EFFECTS if one.name == name), None)
+    effect = effect_named(name)
     if effect is not None:
         return effect.needs
     # a finer one is not taken where what cannot be helped is larger

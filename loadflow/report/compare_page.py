@@ -135,8 +135,13 @@ def _moment(told: Mapping[str, Any]) -> Moment:
 def _verdicts(one: Mapping[str, Any], shown: Collection[str]) -> Iterator[dict[str, str]]:
     """Verdicts on a candidate as rows of a table, each with its link."""
     for verdict in one["verdicts"]:
-        picture = f"{one['name']}.{_moment(verdict).anchor}"
-        yield verdict_row(verdict) | {"link": f"#{picture}" if picture in shown else ""}
+        yield verdict_row(verdict) | {"link": _picture(one, verdict, shown)}
+
+
+def _picture(one: Mapping[str, Any], told: Mapping[str, Any], shown: Collection[str]) -> str:
+    """Link to where a number of a candidate, or a verdict, is from; empty without a picture."""
+    name = f"{one['name']}.{_moment(told).anchor}"
+    return f"#{name}" if name in shown else ""
 
 
 def _row(key: str, data: Mapping[str, Any], shown: Collection[str]) -> Row | None:
@@ -184,8 +189,7 @@ def _link(one: Mapping[str, Any], key: str, shown: Collection[str]) -> str:
     number = one["numbers"].get(key)
     if number is None or not _is_extreme(number):
         return ""
-    picture = f"{one['name']}.{_moment(number).anchor}"
-    return f"#{picture}" if picture in shown else f"#{one['name']}.{key}"
+    return _picture(one, number, shown) or f"#{one['name']}.{key}"
 
 
 def _cell(number: dict[str, Any] | None, link: str, at_most: bool) -> Cell:
@@ -283,13 +287,13 @@ def _is_extreme(number: Mapping[str, Any]) -> bool:
 def _extremes(
     one: Mapping[str, Any], data: Mapping[str, Any], shown: Collection[str]
 ) -> Iterator[tuple[str, str, tuple[str, ...]]]:
-    """Name, link and cells of each extreme: with bearing, load case and time."""
+    """Name, link to its picture and cells of each extreme: with bearing, load case and time."""
     for key, number in one["numbers"].items():
         if _is_extreme(number):
             unit = "" if number["unit"] == "–" else number["unit"]
             yield (
                 f"{one['name']}.{key}",
-                _link(one, key, shown),
+                _picture(one, number, shown),
                 (
                     data["quantities"][key]["name"],
                     f"{three_digits(number['value'])} {unit}".rstrip(),

@@ -154,16 +154,13 @@ def _of_samples(
             own |= {what: part} if part.sizes["sample"] else {}
     if not own:
         return
-    together = xr.concat([part[name] for part in own.values()], "sample")  # in one unit
-    values, unit = readable(together, units)
-    lines, begin = {}, 0
+    attributes = next(iter(own.values()))[name].attrs
+    placed = xr.DataArray(np.full((len(own), time.size), np.nan), attrs=attributes)
     middles = 0.5 * (time[1:] + time[:-1])
-    for what, part in own.items():
-        count = part.sizes["sample"]
-        lines[what] = np.full(time.size, np.nan)
-        places = np.searchsorted(middles, part["time"].values)
-        lines[what][places] = values[begin : begin + count]
-        begin += count
+    for row, part in zip(placed.values, own.values()):
+        row[np.searchsorted(middles, part["time"].values)] = part[name].values
+    values, unit = readable(placed, units)  # all in one
+    lines = dict(zip(own, values))
     yield Panel(f"{said}, {unit}", lines, dots=any(map(_stand_alone, lines.values())))
 
 

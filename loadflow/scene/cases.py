@@ -131,11 +131,8 @@ def list_cases(scene: Scene) -> list[Case]:
     files = [path for pattern in loads.files for path in _matching(pattern)]
     cases = [case for path in files for case in _cases_of(path, loads)]
     distinct = _distinct(cases)
-    try:
-        dlcs = (case.dlc for case in distinct)
-        check_counts(scene.lifetime, scene.wear.counts, dlcs, loads.weights)
-    except ValueError as error:
-        raise InputError(str(error)) from error
+    dlcs = (case.dlc for case in distinct)
+    check_counts(scene.lifetime, scene.wear.counts, dlcs, loads.weights)
     return distinct if loads.weights == "given" else weighted(distinct, wind_class(scene))
 
 

@@ -7,9 +7,9 @@ from typing import Annotated
 
 from pydantic import BaseModel, Field
 
-from loadflow.numerics.fields import none_such
+from loadflow.errors import InputError
 from loadflow.scene.section import Section
-from loadflow.wind.cases import uncounted
+from loadflow.wind.cases import check_counted
 
 Count = Annotated[float, Field(ge=0, le=1e9)]
 
@@ -55,20 +55,13 @@ def check_counts(
 
     Raises
     ------
-    ValueError
+    loadflow.errors.InputError
         Names the key.
     """
-    known = sorted(set(there))
-    for key, told in (("lifetime.per_year", lifetime.per_year), ("wear.counts", starts)):
-        idle = uncounted(told, known)
-        if missing := [dlc for dlc in idle if uncounted([dlc], known)]:
-            raise ValueError(f"{key}: {none_such('load case', missing, known)}")
-        if idle:
-            raise ValueError(
-                f"{key}: nothing takes the number of {', '.join(idle)}, as all its variants or "
-                "words have one of their own; leave it out"
-            )
+    known = {*there}
+    check_counted("lifetime.per_year", lifetime.per_year, known)
+    check_counted("wear.counts", starts, known)
     if lifetime.per_year and weights == "given":
-        raise ValueError(
+        raise InputError(
             'lifetime.per_year: loads.weights = "given" takes the shares of the files; keep one'
         )

@@ -13,10 +13,9 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.numerics.fields import none_such
 from loadflow.scene.cases import speed_shares
 from loadflow.wind import iec
-from loadflow.wind.cases import by_load_case, row_of
+from loadflow.wind.cases import by_load_case, check_counted, row_of
 
 YEAR = 365.25 * 86_400.0
 PRODUCTION = ("1.1", "1.2")
@@ -65,10 +64,14 @@ def lifetime_shares(
     ------
     loadflow.errors.InputError
         No case has a share, the events take more than a year, or `per_year` names a load case that
-        is not there or a number that is not >= 0.
+        is not there or whose variants all have their own number, or a number that is not >= 0.
     """
-    _check_counts(per_year or {}, set(dlcs))
-    counted = by_load_case(per_year or {}, dlcs)
+    told = per_year or {}
+    check_counted("per_year", told, dlcs)
+    for dlc, number in told.items():
+        if not 0 <= number < np.inf:
+            raise InputError(f"per_year: {dlc} = {number}; allowed: >= 0")
+    counted = by_load_case(told, dlcs)
     names, speeds = np.array(dlcs, dtype=str), np.array(wind_speeds, dtype=float)
 
     def within(group: Sequence[str]) -> np.ndarray:
@@ -121,11 +124,3 @@ def without_share(dlcs: Sequence[str], shares: np.ndarray) -> list[str]:
     for dlc, share in zip(dlcs, shares.tolist()):
         total[dlc] += share
     return [dlc for dlc, share in total.items() if share == 0]
-
-
-def _check_counts(per_year: Mapping[str, float], there: set[str]) -> None:
-    for dlc, number in per_year.items():
-        if not by_load_case({dlc: number}, there):
-            raise InputError(f"per_year: {none_such('load case', [dlc], sorted(there))}")
-        if not 0 <= number < np.inf:
-            raise InputError(f"per_year: {dlc} = {number}; allowed: >= 0")

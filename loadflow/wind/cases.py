@@ -13,6 +13,7 @@ from string import ascii_lowercase
 from typing import Literal
 
 from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
 from loadflow.wind import iec
 from loadflow.wind.options import Machine, WindOptions
 
@@ -230,23 +231,41 @@ def by_load_case(told: Mapping[str, float], there: Iterable[str]) -> dict[str, f
     return found
 
 
-def uncounted(told: Iterable[str], there: Iterable[str]) -> list[str]:
-    """Load cases, variants and words whose number nothing takes: not there, or all with their own.
+def check_counted(key: str, told: Iterable[str], there: Iterable[str]) -> None:
+    """Refuse load cases, variants and words whose number `by_load_case` gives to none.
 
     Parameters
     ----------
+    key : str
+        What tells their numbers.
     told : iterable of str
-        Those with a number, see `by_load_case`.
+        Those with a number.
     there : iterable of str
         Those that there are.
 
+    Raises
+    ------
+    loadflow.errors.InputError
+        Some are not there, or all their variants have a number of their own.
+
     Examples
     --------
-    >>> uncounted(["3.1", "3.1a", "4.1"], ["3.1a"])
-    ['3.1', '4.1']
+    >>> check_counted("per_year", ["3.1", "3.1a"], ["3.1a", "3.1b"])
+    >>> check_counted("per_year", ["3.1", "3.1a"], ["3.1a"])
+    Traceback (most recent call last):
+    ...
+    loadflow.errors.InputError: per_year: nothing takes the number of 3.1, as all its variants or \
+words have one of their own; leave it out
     """
     named, names = [*told], sorted(set(there))
-    return [dlc for dlc in named if not _counted(dlc, named, names)]
+    idle = [dlc for dlc in named if not _counted(dlc, named, names)]
+    if missing := [dlc for dlc in idle if not _counted(dlc, (), names)]:
+        raise InputError(f"{key}: {none_such('load case', missing, names)}")
+    if idle:
+        raise InputError(
+            f"{key}: nothing takes the number of {', '.join(idle)}, as all its variants or "
+            "words have one of their own; leave it out"
+        )
 
 
 def _counted(dlc: str, told: Collection[str], names: Iterable[str]) -> list[str]:

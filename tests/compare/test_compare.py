@@ -689,15 +689,20 @@ def test_the_page_says_the_conclusion_and_its_links_lead_somewhere(found):
             assert row is None or f'href="#{one.name}.at-{number.case}-' in row[0]
 
 
-def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series():
-    time = np.arange(0.0, 120.0, 0.1)
-    force = np.stack([0.0 * time, 3e5 + time, 4e5 + 0.0 * time])
-    series = xr.Dataset(
-        {"speed": ("time", 1.2 + 0.0 * time, {"units": "rad/s"}),
+def series_under(time, *force):
+    """A bearing that turns steadily under a force (3) over time, without a moment."""
+    force = np.stack(np.broadcast_arrays(*force, time)[:3])
+    return xr.Dataset(
+        {"speed": ("time", np.full(time.size, 1.2), {"units": "rad/s"}),
          "force": (("axis", "time"), force, {"units": "N"}),
-         "moment": (("axis", "time"), 0.0 * force, {"units": "N m"})},
+         "moment": (("axis", "time"), np.zeros_like(force), {"units": "N m"})},
         {"time": time},
     )  # fmt: skip
+
+
+def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series():
+    time = np.arange(0.0, 120.0, 0.1)
+    series = series_under(time, 0.0, 3e5 + time, 4e5)
     film = xr.Dataset(
         {"time": ("sample", [70.3, 2.0, 50.01]),
          "minimum_film": ("sample", [20e-6, 1e-6, 30e-6], {"units": "m"})},
@@ -722,13 +727,7 @@ def test_a_moment_shows_force_and_film_of_its_bearing_at_its_time_in_the_series(
 def test_films_of_every_other_sample_are_seen_as_dots_and_those_of_all_as_a_line(every, dots):
     """A line has no gaps: values with nothing beside them would not be drawn."""
     time = np.arange(0.0, 120.0, 0.1)
-    force = np.ones((3, time.size))
-    series = xr.Dataset(
-        {"speed": ("time", 1.2 + 0.0 * time, {"units": "rad/s"}),
-         "force": (("axis", "time"), force, {"units": "N"}),
-         "moment": (("axis", "time"), 0.0 * force, {"units": "N m"})},
-        {"time": time},
-    )  # fmt: skip
+    series = series_under(time, 1.0, 1.0, 1.0)
     pressure = ("sample", 1e6 + time[::every], {"units": "Pa"})
     film = xr.Dataset({"time": ("sample", time[::every]), "maximum_pressure": pressure})
     few = film.isel(sample=[3, 300 // every])
@@ -864,6 +863,17 @@ def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_wh
     assert f"{worn} (wear.law: needs a law)" in told
     assert f'<th scope="row">{pump}' not in page
     assert f'<th scope="row">{film}' in page  # 0 breaks its limit
+
+
+def test_without_a_picture_a_number_leads_to_its_row_which_leads_nowhere(tmp_path):
+    film = Number(20.0, "µm", case="a", time=3.0, place="N")
+    one = judged_of("one", 3.0, "journal", numbers={"minimum_film": film})
+    told = Comparison("c", "", "", (one,), {}, [], {}, []).as_dict()
+    page = write_comparison(tmp_path / "c.html", told).read_text(encoding="utf-8")
+    assert page.count('href="#one.minimum_film"') == 1
+    row = page.partition('<tr id="one.minimum_film">')[2].partition("</tr>")[0]
+    assert "3.00 s" in row
+    assert "href" not in row
 
 
 def test_the_table_and_the_json_hold_the_same_numbers(found):

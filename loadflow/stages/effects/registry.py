@@ -49,6 +49,11 @@ EFFECTS: list[Effect] = [
 ]
 
 
+def effect_named(name: str) -> Effect | None:
+    """The effect of that name; None without one."""
+    return next((one for one in EFFECTS if one.name == name), None)
+
+
 def effects_of(stage: Stage, scene: Scene) -> list[Effect]:
     """Effects of a stage that can be there in a scene, on or off."""
     models = [rungs.name for rungs in stage.models]
