@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from benchmarks.common import seconds_of
+from benchmarks.common import timed
 from benchmarks.ladder.measuring import (
     Bench,
     Entry,
@@ -41,7 +41,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
 from loadflow.stages import friction, thrust
 from loadflow.stages.frames import to_rolling
-from loadflow.studies.compare_friction import rolling_losses
+from loadflow.studies.compare_friction import Losses, rolling_losses
 from loadflow.studies.compare_margins import load_by_row, lubrication, row_shares, solved
 from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_risks import LIGHT, rolling_risks
@@ -102,8 +102,9 @@ def _of_pads(bench: Bench, name: str) -> Entry:
         many = _hardest_and_spread(bearing, _samples(parts, place))
         if rung == "curve":
             many = _samples(parts, place)
-        found, best = (thrust.solved(bearing, place, some, rung) for some in (few, many))
-        seconds += seconds_of(lambda few=few: thrust.solved(bearing, place, few, rung), 1)
+        best = thrust.solved(bearing, place, many, rung)
+        found, spent = timed(partial(thrust.solved, bearing, place, few, rung), warm=True)
+        seconds += spent
         ours, theirs = ours + few.sizes["sample"], theirs + parts["loads"].sizes["time"]
         for quantity, value in _told(found).items():
             errors.add(quantity, label(case), value, _told(best)[quantity])
@@ -163,11 +164,12 @@ def _entry(bench: Bench, runs: list[Finished]) -> Entry:
     errors, ours, theirs = Errors(), 0.0, 0.0
     for run in runs:
         series, table = _series(run), _table(run)
-        few = partial(rolling_losses, run.scene, run.folder, table)
-        seconds = seconds_of(few, 1)
+        few, seconds = timed(partial(rolling_losses, run.scene, run.folder, table), warm=True)
+        assert few is not None
         ours += seconds / len(series)
-        theirs += seconds_of(partial(_followed, run, series), 1) / len(series)
-        _compare(errors, run, series, table)
+        followed, seconds = timed(partial(_followed, run, series), warm=True)
+        theirs += seconds / len(series)
+        _compare(errors, run, series, table, few, followed)
     found = errors.summary()
     count, scale = len(runs), 600.0 / bench.setting.duration
     return {
@@ -204,10 +206,14 @@ def _followed(run: Finished, series: Parts) -> dict[Case, xr.Dataset]:
     return {case: friction.losses(scene, case, parts) for case, parts in series.items()}
 
 
-def _compare(errors: Errors, run: Finished, series: Parts, table: xr.Dataset) -> None:
-    few = rolling_losses(run.scene, run.folder, table)
-    assert few is not None
-    followed = _followed(run, series)
+def _compare(
+    errors: Errors,
+    run: Finished,
+    series: Parts,
+    table: xr.Dataset,
+    few: Losses,
+    followed: Mapping[Case, xr.Dataset],
+) -> None:
     whole = friction.summary(followed).sum("bearing", skipna=False)
     for case in series:
         place, at = f"{run.name}, {label(case)}", {"case": case.name}

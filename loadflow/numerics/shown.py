@@ -77,3 +77,18 @@ def in_words(values: np.ndarray, units: str) -> tuple[str, str]:
     if not known.size:
         return "no value", unit
     return f"{np.nanmin(shown):.4g} … {np.nanmax(shown):.4g}", unit
+
+
+def span_in_words(values: np.ndarray, units: str) -> tuple[str, str]:
+    """Least and largest value, or the one that all have, and the unit in which they are.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> span_in_words(np.array([2e6, 1e6, 3e6]), "Pa")
+    ('1 … 3', 'MPa')
+    >>> span_in_words(np.array([2e6, 2e6]), "Pa")
+    ('2', 'MPa')
+    """
+    span, unit = in_words(np.unique([values.min(), values.max()]), units)
+    return span.replace(", ", " … "), unit

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.shown import Shown, in_words
+from loadflow.numerics.shown import Shown, span_in_words
 from loadflow.quantities import ROLLING, Quantity, load_cases
 from loadflow.rolling.contact_forces import ContactForces
 from loadflow.rolling.contacts import HEIGHT, RADIUS, Array, Contacts
@@ -387,9 +387,7 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
             if isinstance(values, str):
                 lines.append(f"  {meaning:36s} none: {values}")
                 continue
-            spread = np.unique([values.min(), values.max()])
-            span, unit = in_words(spread, units)
-            span = span.replace(", ", " … ")
+            span, unit = span_in_words(values, units)
             lines.append(f"  {meaning:36s} {span} {unit}".rstrip())
         failed = int(np.count_nonzero(~np.asarray(self.converged)))
         lines.append(f"  {'converged':36s} {'all' if not failed else f'all but {failed}'}")

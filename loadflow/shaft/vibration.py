@@ -121,7 +121,7 @@ def _each_at_its_own(
     return xr.concat(rows, "mode", combine_attrs="override").assign_attrs(about)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Pencil:
     """A x = λ B x of a shaft line on its supports, λ in `scale`, 1/s."""
 

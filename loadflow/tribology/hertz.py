@@ -152,7 +152,9 @@ def hertz_point(
 
 
 def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: ArrayLike) -> Array:
-    """Stiffness factor K of F = K δ^1.5 from Hertz's coefficient ψ/ξ, N/m^1.5, (3.5).
+    """Stiffness factor K of F = K δ^1.5 from Hertz's coefficient ψ/ξ, N/m^1.5.
+
+    (3.5) of [Ritzer 2018].
 
     Parameters
     ----------
@@ -175,7 +177,9 @@ def stiffness_factor(coefficient: ArrayLike, curvature_sum: ArrayLike, e_star: A
 def curvature_sum(
     r11: ArrayLike, r12: ArrayLike, r21: ArrayLike, r22: ArrayLike
 ) -> tuple[Array, Array]:
-    """Sum Σk of the four curvatures (1/m) and cos τ of their difference, (2.2), (2.3).
+    """Sum Σk of the four curvatures (1/m) and cos τ of their difference.
+
+    (2.2) and (2.3) of [Ritzer 2018].
 
     Examples
     --------

@@ -59,16 +59,11 @@ class _HertzContact(Shown):
         """
         import xarray as xr
 
-        told = {name: np.asarray(getattr(self, name)) for name in self.shown_quantities()}
-        cases = np.broadcast_shapes(*(values.shape for values in told.values()))
-        whole = {name: np.broadcast_to(values, cases) for name, values in told.items()}
-        return xr.Dataset(
-            {
-                name: (("case",), values.ravel(), about) if cases else ((), values, about)
-                for name, values in whole.items()
-                for about in (self.shown_quantities()[name].attributes,)
-            }
-        )
+        told = self.shown_quantities()
+        whole = np.broadcast_arrays(*(getattr(self, name) for name in told))
+        if not whole[0].ndim:
+            return xr.Dataset({n: ((), x, told[n].attributes) for n, x in zip(told, whole)})
+        return xr.Dataset({n: ("case", x.ravel(), told[n].attributes) for n, x in zip(told, whole)})
 
     def plot(self) -> Figure:
         """Draw the pressure from the middle to the edges of the contact that is pressed most.
@@ -100,7 +95,7 @@ class _HertzContact(Shown):
 
 @dataclass(frozen=True, repr=False)
 class PointContact(_HertzContact):
-    """Elliptical contact of two bodies.
+    """Elliptical contact of two bodies; numbers of equations are those of [Ritzer 2018].
 
     Attributes
     ----------
@@ -153,7 +148,7 @@ class PointContact(_HertzContact):
 
 @dataclass(frozen=True, repr=False)
 class LineContact(_HertzContact):
-    """Contact of two bodies along a line.
+    """Contact of two bodies along a line [Hertz 1881], its approach by the law of `hertz_line`.
 
     Attributes
     ----------

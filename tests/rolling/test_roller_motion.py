@@ -149,6 +149,21 @@ def test_contacts_follow_their_slopes(film, load, speed):
             )
 
 
+@pytest.mark.parametrize("order", ["C", "F"])
+def test_steps_take_histories_that_are_read_only_or_laid_out_by_columns_as_any_other(order):
+    """Other layouts would be compiled anew, which takes much longer than the steps."""
+    history = cut(static_load(2000, 2e3), 20)
+    names = ("time", "inner_speed", "outer_speed", "load", "outward", "tangential")
+    changed = {name: np.array(getattr(history, name), order=order) for name in names}
+    for values in changed.values():
+        values.flags.writeable = False
+    other = dataclasses.replace(history, **changed)
+    for one, usual in zip(film_arguments(other), film_arguments(history), strict=True):
+        assert one.flags.c_contiguous
+        assert one.flags.writeable
+        np.testing.assert_array_equal(one, usual)
+
+
 def test_film_steps_agree_with_lsoda():
     from scipy.integrate import solve_ivp
 

@@ -54,6 +54,21 @@ def test_a_circle_is_reached_without_loss_of_digits():
     assert near.stiffness == pytest.approx(circle.stiffness, rel=1e-8)
 
 
+def test_contacts_of_bearings_and_loads_are_labelled_case_by_case():
+    """Two loads of three geometries: what depends on the geometry alone stands at each load."""
+    contact = hertz_point(50, 50, -1 / 0.0205, [1 / 0.08, -1 / 0.12, 0.0], force=[[1e3], [2e3]])
+    data = contact.to_dataset()
+    np.testing.assert_array_equal(data["pressure"], np.ravel(contact.pressure))
+    np.testing.assert_array_equal(data["stiffness"], np.tile(contact.stiffness, 2))
+    axes = data["major_semi_axis"] / data["minor_semi_axis"]
+    np.testing.assert_allclose(axes, np.tile(contact.ellipticity, 2), rtol=1e-12)
+    assert data["stiffness"].units == "N/m^1.5"
+    one = hertz_line(100.0, 0.0, length=0.03, force=2e4)
+    alone = one.to_dataset()
+    assert not alone.dims
+    assert float(alone["semi_width"]) == one.semi_width
+
+
 def test_stiffness_of_the_worksheet_geometry():
     contact = hertz_point(50, 50, -1 / 0.0205, [1 / 0.08, -1 / 0.12], force=1.0)
     assert contact.coefficient == pytest.approx([0.54061, 0.59540], rel=1e-4)

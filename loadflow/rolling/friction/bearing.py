@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
-from loadflow.numerics.shown import Shown, in_words
+from loadflow.numerics.shown import Shown, span_in_words
 from loadflow.quantities import Quantity, load_cases
 from loadflow.rolling.friction.contact_films import ContactFilm, Ring
 from loadflow.rolling.friction.options import FrictionOptions
@@ -210,9 +210,8 @@ class BearingFriction(Shown):
     def __repr__(self) -> str:
         lines = [f"<{type(self).__name__} of {load_cases(int(np.size(self.power)))}>"]
         for name, (_, units, meaning) in _SHOWN.items():
-            values = np.asarray(getattr(self, name))
-            span, unit = in_words(np.unique([values.min(), values.max()]), units)
-            lines.append(f"  {meaning:38s} {span.replace(', ', ' … ')} {unit}".rstrip())
+            span, unit = span_in_words(np.asarray(getattr(self, name)), units)
+            lines.append(f"  {meaning:38s} {span} {unit}".rstrip())
         return "\n".join(lines)
 
 

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError, SolverError
 from loadflow.numerics.convergence import Convergence
-from loadflow.numerics.shown import Shown, in_words
+from loadflow.numerics.shown import Shown, span_in_words
 from loadflow.quantities import CELSIUS, Quantity
 from loadflow.rolling.friction.bearing import BearingFriction
 from loadflow.rolling.friction.options import FrictionOptions
@@ -101,10 +101,10 @@ class HeatBalance(Shown):
         return self.friction.plot()
 
     def __repr__(self) -> str:
-        power, unit = in_words(np.unique([self.power.min(), self.power.max()]), "W")
+        power, unit = span_in_words(self.power, "W")
         said = "converged" if self.converged else "not converged"
         warm = self.temperature - CELSIUS
-        return f"<HeatBalance, {warm:.4g} °C with {power.replace(', ', ' … ')} {unit}, {said}>"
+        return f"<HeatBalance, {warm:.4g} °C with {power} {unit}, {said}>"
 
 
 def balanced_temperature(

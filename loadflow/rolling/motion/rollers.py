@@ -314,12 +314,14 @@ def _modulus() -> float:
 
 def film_arguments(history: RollerHistory) -> tuple[Array, ...]:
     """Arrays of a history that the compiled steps take."""
-    return (
-        np.require(history.time, requirements=("C", "W")),  # one that is read-only compiles anew
+    given = (
+        history.time,
         history.surface_speed,
         history.inner_speed - history.outer_speed,
         np.gradient(history.cage_speed, history.time) * math.cos(history.row.contact_angle),
-        np.ascontiguousarray(history.load),
-        np.ascontiguousarray(history.outward),
-        np.ascontiguousarray(history.tangential),
+        history.load,
+        history.outward,
+        history.tangential,
     )
+    # one that is read-only, or laid out by columns, would compile the steps anew
+    return tuple(np.require(one, requirements=("C", "W")) for one in given)
