@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import fields
 from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 
@@ -37,10 +36,10 @@ from loadflow.rolling import (
 )
 from loadflow.rolling.friction import CatalogueEntry
 from loadflow.rolling.rating.oscillation import idle_torque_of
+from loadflow.scene.cooling import Cooling
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.places import FOUR_POINT, GEOMETRIES
 from loadflow.scene.section import SECTION, told_apart
-from loadflow.tribology import lubricant as oil_of
 
 
 def _without_kind(value: Any) -> Any:
@@ -200,7 +199,8 @@ class FurtherBearing(BaseModel):
     rings; stiffnesses for the shaft and for rotor dynamics are those without them.
 
     A `catalogue` entry (diameters, series) adds SKF's friction torque to Palmgren's, which stand
-    beside ours.
+    beside ours. `cooling` is that of its housing, or how warm it is; what the section
+    ``[friction]`` states goes before it.
     """
 
     model_config = SECTION
@@ -215,6 +215,7 @@ class FurtherBearing(BaseModel):
     oscillation: Swing | None = None
     mounting: Mounting | None = None
     catalogue: CatalogueEntry | None = None
+    cooling: Cooling | None = None
     limits: RollingLimits = RollingLimits()
 
     @field_validator("oscillation", mode="before")
@@ -391,56 +392,3 @@ class Rolling(FurtherBearing):
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"
-
-
-def check_baths(rolling: Rolling, lubricant: str) -> None:
-    """Refuse a bath of oil, which a catalogue's drag is of, where the lubricant is a grease."""
-    greased = bool(oil_of(lubricant).thickener)
-    for name, part in rolling.bearings.items():
-        if greased and part.catalogue is not None and part.catalogue.oil_level is not None:
-            raise ValueError(
-                f"bearings.{name}.catalogue.oil_level: a bath of oil; friction.lubricant "
-                f'"{lubricant}" is a grease'
-            )
-
-
-def check_swinging(rolling: Rolling, films: Iterable[str]) -> None:
-    """Raise unless the bearings beside the shaft swing; `films` are the places of films.
-
-    Raises
-    ------
-    ValueError
-        A yaw or pitch bearing that turns with the rotor or is a film, or another one that follows
-        the pitch.
-    """
-    for place, name in (("Y", "yaw"), ("P", "pitch")):
-        part = rolling.bearings.get(place)
-        if part is not None and part.oscillation is None:
-            raise ValueError(
-                f"rolling bearing {place}: the {name} bearing swings; give its oscillation"
-            )
-        if place in films:
-            raise ValueError(
-                f"journal.bearings = {place!r}: the {name} bearing is a rolling bearing"
-            )
-    for place, part in rolling.bearings.items():
-        if part.oscillation is not None and part.oscillation.of_pitch and place != "P":
-            raise ValueError(
-                f'rolling bearing {place}: oscillation.kind = "pitch" is that of the pitch '
-                "bearing P; give amplitude and frequency"
-            )
-
-
-def check_capacities(rolling: Rolling) -> None:
-    """Raise unless the dynamic capacity of every bearing, and so its life, can be rated.
-
-    Raises
-    ------
-    ValueError
-        Naming the bearing and what is outside the tables of its rating.
-    """
-    for place, part in rolling.bearings.items():
-        try:
-            _ = part.geometry.rated_capacity
-        except InputError as error:
-            raise ValueError(f"rolling bearing {place}: no life: {error}") from error

@@ -50,24 +50,33 @@ def machine(turbine: str) -> dict[str, Any]:
     Returns
     -------
     dict
-        `source`, `shaft` and `candidates`.
+        `source`, `shaft`, `cooling` of all rolling bearings, and `candidates`.
     """
     return _read(turbine) if turbine in machine_names() else {}
 
 
 @cache
 def candidates_of(turbine: str) -> Mapping[str, Any]:
-    """Sized candidates of a turbine by name, with rings that follow from their rolling elements."""
-    found: dict[str, Any] = machine(turbine).get("candidates", {})
+    """Sized candidates of a turbine by name, as scenes write them.
+
+    Rolling bearings have rings that follow from their rolling elements, and the cooling that the
+    machine states for all of them.
+    """
+    read = machine(turbine)
+    found: dict[str, Any] = read.get("candidates", {})
+    shared = {"cooling": read["cooling"]} if "cooling" in read else {}
     return {
-        name: {key: _with_rings(part) for key, part in one.items()} for name, one in found.items()
+        name: {key: _completed(part, shared) for key, part in one.items()}
+        for name, one in found.items()
     }
 
 
-def _with_rings(part: Any) -> Any:
-    """A place with the usual rings of its bearing, if rings of its kind may be flexible."""
+def _completed(part: Any, shared: dict[str, Any]) -> Any:
+    """A place with what all rolling bearings share, and usual rings where they may be flexible."""
     kind = part.get("kind") if isinstance(part, dict) else None
-    if kind not in GEOMETRIES or not GEOMETRIES[kind].flexible_rings:
+    if kind not in GEOMETRIES:
         return part
+    if not GEOMETRIES[kind].flexible_rings:
+        return shared | part
     inner, outer = usual_rings(GEOMETRIES[kind](**part["geometry"]))
-    return {"inner_ring": inner.written, "outer_ring": outer.written} | part
+    return {"inner_ring": inner.written, "outer_ring": outer.written} | shared | part

@@ -50,7 +50,7 @@ def surrounded(data: dict[str, Any]) -> dict[str, Any]:
         }
     friction = found.get("friction", {})
     if isinstance(friction, dict):
-        gives = any(_is_mounted(one.get("rolling")) for one in every)
+        gives = any(_gives_off(one.get("rolling")) for one in every)
         gives = gives or not {"conductance", "cooling"}.isdisjoint(friction)
         known = {"ambient_temperature": ambient} if gives else {}
         known |= {"temperature": ambient} if cold else {}
@@ -73,12 +73,14 @@ def _with_warm_films(data: dict[str, Any], ambient: float, cold: bool) -> dict[s
     return found
 
 
-def _is_mounted(rolling: Any) -> bool:
-    """Whether the clearance of a rolling bearing follows temperatures."""
+def _gives_off(rolling: Any) -> bool:
+    """Whether a rolling bearing states its cooling, or its clearance follows temperatures."""
     parts = rolling if isinstance(rolling, list) else [rolling]
     parts = [part for part in parts if isinstance(part, dict)]
     further = [part for one in parts for part in one.get("further") or () if isinstance(part, dict)]
-    return any(part.get("mounting") is not None for part in (*parts, *further))
+    return any(
+        part.get(key) is not None for part in (*parts, *further) for key in ("mounting", "cooling")
+    )
 
 
 def _warmed(journal: dict[str, Any], ambient: float, cold: bool) -> dict[str, Any]:

@@ -3,65 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Annotated
 
-from annotated_types import Gt, Le
 from pydantic import BaseModel, Field, field_validator
 
-from loadflow.errors import InputError
 from loadflow.numerics.fields import not_one_of
 from loadflow.rolling.friction import Churning
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.cooling import Cooling
 from loadflow.scene.section import Section
 
 Positive = Annotated[float, Field(gt=0)]
-
-
-@dataclass(frozen=True)
-class Cooling:
-    """How warm one rolling bearing is: by what carries off its heat, or stated.
-
-    Attributes
-    ----------
-    conductance : float, optional
-        Heat that the bearing gives off for each kelvin above what is around it, W/K.
-    area : float, optional
-        Surface of its housing that gives off heat, m²; with `transfer` in place of `conductance`.
-    transfer : float, optional
-        Heat that this gives off for each kelvin, W/(m² K).
-    temperature : float, optional
-        K, in place of a heat balance: as measured.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        None of these forms, or several.
-
-    Examples
-    --------
-    >>> Cooling(area=4.0, transfer=15.0).total
-    60.0
-    """
-
-    conductance: Annotated[float, Gt(0)] | None = None
-    area: Annotated[float, Gt(0)] | None = None
-    transfer: Annotated[float, Gt(0)] | None = None
-    temperature: Annotated[float, Gt(200), Le(500)] | None = None
-
-    def __post_init__(self) -> None:
-        given = {name for name, value in vars(self).items() if value is not None}
-        if given not in ({"conductance"}, {"area", "transfer"}, {"temperature"}):
-            raise InputError(
-                "give conductance (W/K), or area (m²) and transfer (W/(m² K)) of the housing, or "
-                "temperature (K)"
-            )
-
-    @property
-    def total(self) -> float | None:
-        """Heat that the bearing gives off for each kelvin, W/K; None of a stated temperature."""
-        if self.area is not None and self.transfer is not None:
-            return self.area * self.transfer
-        return self.conductance
 
 
 class Friction(Section, BaseModel):
@@ -78,7 +31,8 @@ class Friction(Section, BaseModel):
     With a ``conductance`` (W/K) to ``ambient_temperature`` (K) each bearing has the temperature in
     a load case at which that carries off its mean friction; else it is ``temperature``. Its
     modified life has the oil at that temperature, too. A conductance is that of each bearing;
-    ``cooling``, a table by place, has a `Cooling` for single ones, which goes before both.
+    ``cooling``, a table by place, has a `Cooling` for single ones, which goes before both. The
+    ``cooling`` of a bearing itself counts where all three leave it open.
 
     ``cleanliness`` is one of `loadflow.rolling.rating.modified_life.CLEANLINESS`; with lubricant
     and temperature it gives the modified life. Loads are taken every ``step`` (s); rollers have
@@ -125,41 +79,54 @@ class Friction(Section, BaseModel):
             raise ValueError(not_one_of(name, known))
         return name
 
-    def conductance_at(self, place: str) -> float | None:
+    def cooling_of(self, part: FurtherBearing) -> Cooling | None:
+        """What is stated of one bearing alone: here by its place, or by itself."""
+        own = self.cooling.get(part.bearing)
+        if own is None and self.conductance is None and "temperature" not in self.changed:
+            return part.cooling
+        return own
+
+    def conductance_of(self, part: FurtherBearing) -> float | None:
         """Heat that a bearing gives off for each kelvin, W/K; None where none is stated.
 
         Examples
         --------
+        >>> from loadflow.rolling import BallBearing
+        >>> ring = BallBearing(balls=20, ball_diameter=0.05, pitch_diameter=0.6,
+        ...     groove_radius=0.026)
+        >>> N, N2 = (FurtherBearing(bearing=place, geometry=ring) for place in ("N", "N2"))
         >>> cooled = Friction(cooling={"N": Cooling(60.0)})
-        >>> cooled.conductance_at("N"), cooled.conductance_at("N2")
+        >>> cooled.conductance_of(N), cooled.conductance_of(N2)
         (60.0, None)
         """
-        own = self.cooling.get(place)
-        return self.conductance if own is None else own.total
+        own = self.cooling_of(part)
+        return self.conductance if own is None else own.conductance_of(part.geometry)
 
-    def states(self, place: str) -> bool:
+    def states(self, part: FurtherBearing) -> bool:
         """Whether a bearing has a temperature of its own, as measured."""
-        return place in self.cooling and self.cooling[place].temperature is not None
+        own = self.cooling_of(part)
+        return own is not None and own.temperature is not None
 
-    def temperature_at(self, place: str) -> float:
+    def temperature_of(self, part: FurtherBearing) -> float:
         """Temperature that is stated for a bearing, K."""
-        own = self.cooling.get(place)
+        own = self.cooling_of(part)
         return self.temperature if own is None or own.temperature is None else own.temperature
 
-    def balances(self, places: Iterable[str]) -> list[str]:
-        """Those of the bearings that have the temperature of a heat balance."""
-        return [place for place in places if self.conductance_at(place) is not None]
+    def balances(self, parts: Iterable[FurtherBearing]) -> list[str]:
+        """Places of those of the bearings that have the temperature of a heat balance."""
+        return [part.bearing for part in parts if self.conductance_of(part) is not None]
 
-    def of(self, place: str) -> Friction:
+    def of(self, part: FurtherBearing) -> Friction:
         """Return the section as it is for one bearing, with its conductance or temperature."""
-        own = {"temperature": self.temperature_at(place)}
+        kelvin, conductance = self.temperature_of(part), self.conductance_of(part)
+        held = {} if conductance is not None else {part.bearing: Cooling(temperature=kelvin)}
         return self.model_copy(
-            update=own | {"conductance": self.conductance_at(place), "cooling": {}}
+            update={"temperature": kelvin, "conductance": conductance, "cooling": held}
         )
 
     def without_balance(self) -> Friction:
         """Return the section with the stated temperatures alone."""
-        stated = {place: one for place, one in self.cooling.items() if self.states(place)}
+        stated = {place: one for place, one in self.cooling.items() if one.temperature is not None}
         return self.model_copy(update={"conductance": None, "cooling": stated})
 
     def warmed(self, change: Callable[[float], float]) -> Friction:

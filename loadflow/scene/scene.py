@@ -20,7 +20,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.model import Steps, why_not
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.bearings import Rolling, check_baths, check_capacities, check_swinging
+from loadflow.scene.bearings import Rolling
 from loadflow.scene.candidate import Candidate as Candidate
 from loadflow.scene.candidates import ABOUT, TOLERANCES, machine
 from loadflow.scene.design import Design
@@ -36,6 +36,12 @@ from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
 from loadflow.scene.results import OF_PLACES, USUAL, Result, has_films, that_the_shaft_can_give
+from loadflow.scene.rolling_checks import (
+    check_baths,
+    check_capacities,
+    check_cooling,
+    check_swinging,
+)
 from loadflow.scene.section import Section, check_sizes
 from loadflow.scene.series import Reduction, Seeds
 from loadflow.scene.shaft import Shaft
@@ -211,8 +217,9 @@ class Scene(Section, WithFittingBeams, BaseModel):
         return self
 
     @model_validator(mode="after")
-    def _baths_have_oil(self) -> Self:
+    def _rolling_bearings_suit_their_oil_and_cooling(self) -> Self:
         check_baths(self.rolling, self.friction.lubricant)
+        check_cooling(self.rolling, self.friction)
         return self
 
     @model_validator(mode="after")

@@ -132,7 +132,7 @@ def _of_environment(scene: Scene) -> Iterator[tuple[str, str]]:
     heats = [journal.at(place).heat for journal in journals for place in journal.bearings]
     warm = [heat for heat in heats if heat is not None]
     rolls = scene.wants("rolling") or any(one.rolling is not None for one in others)
-    cooled = scene.friction.balances(part.bearing for part in every_rolling(scene))
+    cooled = scene.friction.balances(every_rolling(scene))
     sheds = rolls and (bool(cooled) or mounted(scene))
     gives = sheds or any(heat.gives_off for heat in warm)
     if not (gives or scene.environment.cold_start):

@@ -10,7 +10,8 @@ from pydantic import TypeAdapter
 from loadflow.rolling.friction import CatalogueEntry
 from loadflow.rolling.mounting import unused_of
 from loadflow.scene.bearings import FurtherBearing, Ring
-from loadflow.scene.candidates import candidates_of
+from loadflow.scene.candidates import candidates_of, machine
+from loadflow.scene.cooling import Cooling
 from loadflow.scene.dynamics import OF_ROLLING, turning
 from loadflow.scene.scene import Scene
 from loadflow.scene.section import keys_of
@@ -31,6 +32,28 @@ def of_each_rolling(scene: Scene) -> Iterator[tuple[str, str]]:
             yield f"{where}.mounting.{key}", reason
         for key, reason in _of_vibration(scene, part):
             yield f"{where}.{key}", reason
+        if reason := _why_not_cooled(scene, part):
+            yield f"{where}.cooling", reason
+
+
+def _sized_cooling(scene: Scene) -> list[Cooling]:
+    """Cooling that comes with the bearings sized for the turbine: nobody stated it."""
+    stated = machine(scene.turbine.name).get("cooling")
+    return [] if stated is None else [Cooling(**stated)]
+
+
+def _why_not_cooled(scene: Scene, part: FurtherBearing) -> str:
+    """Why the cooling that a bearing states changes nothing; empty if it does, or if nobody did."""
+    friction = scene.friction
+    if part.cooling is None or part.cooling in _sized_cooling(scene):
+        return ""
+    if friction.cooling_of(part) is not part.cooling:
+        return "the section friction states conductance, cooling or temperature, which goes before"
+    if part.cooling.temperature is None and not part.balances_heat:
+        return "it swings, or has no model of friction, and is as warm as friction.temperature says"
+    if not (part.mounting or {"rolling.friction", "rolling.life"} & set(scene.results)):
+        return "neither friction nor life of it is wanted"
+    return ""
 
 
 _OTHERS = ("rolling.life", "rolling.loads", "rolling.friction")
@@ -119,22 +142,20 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in type(friction).model_fields:
             if key not in (*vibrate, *rated, *warm):
                 yield key, "the result rolling.friction is not wanted"
-    stand = {part.bearing for part in every_rolling(scene)}
     for place in friction.cooling:
         parts = [part for part in every_rolling(scene) if part.bearing == place]
         if not parts:
             yield f"cooling.{place}", "no rolling bearing stands there, of a candidate neither"
         elif "rolling.friction" not in scene.results and not (
-            friction.states(place) or any(part.balances_heat for part in parts)
+            any(friction.states(part) or part.balances_heat for part in parts)
         ):
             why = "it swings, or has no model of friction, and is as warm as stated"
             yield f"cooling.{place}", why
-    if not (friction.balances(stand) or mounted(scene)):
-        yield "ambient_temperature", "no friction.conductance or cooling, no mounting of a bearing"
+    if not (friction.balances(every_rolling(scene)) or mounted(scene)):
+        yield "ambient_temperature", "no cooling of a bearing is stated, and no mounting"
     elif not films and all(
-        friction.states(place)
-        or (part.balances_heat and friction.conductance_at(place) is not None)
-        for place, part in scene.rolling.bearings.items()
+        friction.states(part) or (part.balances_heat and friction.conductance_of(part) is not None)
+        for part in scene.rolling.bearings.values()
     ):
         yield "temperature", "with a conductance each bearing has that of its heat balance"
     if "rolling.friction" not in scene.results:

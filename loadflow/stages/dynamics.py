@@ -156,7 +156,7 @@ def _rolling(scene: Scene, part: FurtherBearing, mean: xr.Dataset) -> At:
         result = rest(warm, load, moment * tilting)
     except SolverError as error:
         raise SolverError(f"bearing {name}: {error}") from error
-    options = friction_options(scene.friction.of(name), warm.modelled)
+    options = friction_options(scene.friction.of(part), warm.modelled)
 
     def at(speed: float, frequency: float) -> xr.Dataset:
         table = coefficients_over_speed(

@@ -61,7 +61,7 @@ def overloaded_words(subject: str, over: float) -> str:
 
 def as_stated(part: FurtherBearing, options: Friction) -> FurtherBearing:
     """Return a bearing with the clearance that it has at the temperature of the section."""
-    return part.at_work(options.temperature_at(part.bearing), options.ambient_temperature)
+    return part.at_work(options.temperature_of(part), options.ambient_temperature)
 
 
 def at_work(
@@ -99,9 +99,9 @@ def at_work(
         No such temperature, or no clearance at it.
     """
     ambient = options.ambient_temperature
-    conductance = options.conductance_at(part.bearing)
+    conductance = options.conductance_of(part)
     if conductance is None or not part.balances_heat:
-        return as_stated(part, options), options.temperature_at(part.bearing)
+        return as_stated(part, options), options.temperature_of(part)
     every = part.mounting is None and answer is not None
     count = speed.size if every else min(MOST, speed.size)
     some = np.unique(np.linspace(0, speed.size - 1, count).round().astype(int))

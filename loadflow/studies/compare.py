@@ -95,12 +95,14 @@ def compared(
         Of `Comparison`.
     """
     order = sorted(answers, key=lambda one: one.rank)
+    rolls = [run.scene.rolling.bearings for run in finished if "rolling" in run.tables]
+    parts = [part for bearings in rolls for part in bearings.values()]
     return Comparison(
         name=scene.name,
         conclusion=conclusion(order, failures),
         reservations=reservations(order),
         candidates=tuple(order),
-        facts=facts(scene, [run.tables for run in finished]),
+        facts=facts(scene, [run.tables for run in finished], parts),
         shaft=drawn(scene, {part["place"] for one in order for part in one.bearings}),
         failures=failures,
         without_place=without_place,
@@ -338,7 +340,10 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         yield name, number
     losses = rolling_losses(run.scene, run.folder, table)
     lost = None if losses is None else losses.power
-    yield "bearing_temperature", warmest(run.scene.friction, table, lost, share)
+    yield (
+        "bearing_temperature",
+        warmest(run.scene.friction, run.scene.rolling.bearings, table, lost, share),
+    )
     if losses is not None and losses.place:
         speed = losses.speed * 30 / np.pi
         low, high = seeds_of(

@@ -137,7 +137,7 @@ def rolling_risks(
 
 
 def _oil(scene: Scene, place: str) -> str:
-    cooled = scene.friction.conductance_at(place) is not None
+    cooled = scene.friction.conductance_of(scene.rolling.bearings[place]) is not None
     return "its heat balance has it" if cooled else "stated"
 
 

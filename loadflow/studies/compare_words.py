@@ -13,7 +13,9 @@ from loadflow.data import evidence
 from loadflow.quantities import CELSIUS, percent, three_digits
 from loadflow.rolling import RollerBearing, RollingBearing
 from loadflow.scene.as_built import AsBuilt
-from loadflow.scene.friction import Cooling, Friction
+from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.cooling import Cooling
+from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.studies.compare_factor import oil_told
 from loadflow.studies.compare_result import UNCARRIED, Judged
@@ -101,8 +103,10 @@ def _listed(verdicts: Sequence[Verdict]) -> str:
     return ", ".join(dict.fromkeys(f"{v.quantity} ({v.subject})" for v in verdicts[:3]))
 
 
-def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, str]:
-    """Loads, seeds and lubricant, in words."""
+def facts(
+    scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]], parts: Collection[FurtherBearing] = ()
+) -> dict[str, str]:
+    """Loads, seeds and lubricant, in words; `parts` are all rolling bearings that are compared."""
     loads = scene.loads
     table = next(
         tables[name]
@@ -137,7 +141,7 @@ def facts(scene: Scene, runs: Sequence[Mapping[str, xr.Dataset]]) -> dict[str, s
         "References behind the loads": references(["loads"]),
         "Tolerances": _tolerances(scene.as_built),
         "Lubricant of rolling bearings": f"{scene.friction.lubricant}, "
-        f"{_warm(scene.friction)}, {scene.friction.cleanliness}",
+        f"{_warm(scene.friction, parts)}, {scene.friction.cleanliness}",
     }
 
 
@@ -167,17 +171,22 @@ def _tolerances(assumed: AsBuilt) -> str:
     return ", ".join(told) or "none"
 
 
-def _warm(options: Friction) -> str:
+def _warm(options: Friction, parts: Collection[FurtherBearing] = ()) -> str:
     """How warm the oil of rolling bearings is, in words."""
     air, stated = (t - CELSIUS for t in (options.ambient_temperature, options.temperature))
     cooled = [f"{place} {_one(cooling)}" for place, cooling in options.cooling.items()]
+    own = [part for part in parts if part.bearing not in options.cooling]
+    housed = {_one(one) for part in own if (one := options.cooling_of(part)) is not None}
     if options.conductance is not None:
         cooled.append(f"{'others ' if cooled else ''}{options.conductance:g} W/K")
+    elif housed:
+        cooled += [f"{'others ' if cooled else ''}{told}" for told in sorted(housed)]
     elif cooled:
         cooled.append(f"others {stated:.0f} °C as stated")
     if not cooled:
         return f"{stated:.0f} °C"
-    if options.conductance is None and not options.balances(options.cooling):
+    measured = all(one.temperature is not None for one in options.cooling.values())
+    if options.conductance is None and not housed and measured:
         return ", ".join(cooled)
     return f"as warm as its heat balance has it, {', '.join(cooled)}; the air {air:.0f} °C"
 
@@ -185,7 +194,11 @@ def _warm(options: Friction) -> str:
 def _one(cooling: Cooling) -> str:
     if cooling.temperature is not None:
         return f"{cooling.temperature - CELSIUS:.0f} °C as stated"
-    return f"{cooling.total:g} W/K"
+    if cooling.transfer is None:
+        return f"{cooling.conductance:g} W/K"
+    if cooling.area is None:
+        return f"{cooling.transfer:g} W/(m² K) of each housing"
+    return f"{cooling.area * cooling.transfer:g} W/K"
 
 
 def _beams(scene: Scene) -> dict[str, str]:

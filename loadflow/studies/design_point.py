@@ -286,7 +286,7 @@ def _add_rolling(
     """Add what the rolling bearings lose, and how far their limits are."""
     lives: list[_Turned] = []
     for place, stated in parts.items():
-        samples, own = spectrum[place].to_dataset(), friction.of(place)
+        samples, own = spectrum[place].to_dataset(), friction.of(stated)
         turned = _Turned.of(stated, samples, own if stated.balances_heat else own.without_balance())
         part = turned.part
         lives.append(turned)

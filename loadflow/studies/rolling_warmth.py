@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +11,7 @@ import xarray as xr
 
 from loadflow.errors import SolverError
 from loadflow.quantities import CELSIUS
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.stages.rolling import warm_bearing
@@ -83,7 +84,7 @@ def warmth_of(
 
 def _power(scene: Scene, place: str, some: xr.Dataset) -> float:
     """Power of the load that the rise over the air follows."""
-    if scene.friction.conductance_at(place) is None:
+    if scene.friction.conductance_of(scene.rolling.bearings[place]) is None:
         return 0.0
 
     def under(factor: float) -> float:
@@ -118,7 +119,11 @@ def power_of_rise(under: Callable[[float], float], ambient: float) -> float:
 
 
 def warmest(
-    options: Friction, table: xr.Dataset, power: xr.DataArray | None, share: np.ndarray
+    options: Friction,
+    parts: Mapping[str, FurtherBearing],
+    table: xr.Dataset,
+    power: xr.DataArray | None,
+    share: np.ndarray,
 ) -> Number:
     """Warmest rolling bearing, °C; where it is stated, with the cooling that its losses need.
 
@@ -126,6 +131,8 @@ def warmest(
     ----------
     options : Friction
         Oil and cooling.
+    parts : mapping
+        Rolling bearings of the scene, by place.
     table : xarray.Dataset
         Rolling bearings of the run.
     power : xarray.DataArray or None
@@ -136,32 +143,38 @@ def warmest(
     values = table["bearing_temperature"].transpose("case", "bearing").values - CELSIUS
     k, b = np.unravel_index(int(np.nanargmax(values)), values.shape)
     place, air = str(table["bearing"].values[b]), options.ambient_temperature - CELSIUS
-    if options.balances(table["bearing"].values.tolist()):
+    if options.balances(parts.values()):
         low, high = interval(Groups.of(table), lambda some: float(np.nanmax(values[some])))
-        own = options.conductance_at(place)
+        own = options.conductance_of(parts[place])
         note = "as stated"
         if own is not None:
-            note = f"its mean friction and {own:g} W/K to {air:.0f} °C"
+            note = f"its mean friction and {own:.3g} W/K to {air:.0f} °C"
         case = str(table["case"].values[k])
         return Number(float(values[k, b]), "°C", low, high, case=case, place=place, note=note)
     return Number(
-        float(values[k, b]), "°C", note=f"as stated{_needed(options, table, power, share)}"
+        float(values[k, b]),
+        "°C",
+        note=f"as stated{_needed(options, parts, power, table['case'].values, share)}",
     )
 
 
 def _needed(
-    options: Friction, table: xr.Dataset, power: xr.DataArray | None, share: np.ndarray
+    options: Friction,
+    parts: Mapping[str, FurtherBearing],
+    power: xr.DataArray | None,
+    cases: np.ndarray,
+    share: np.ndarray,
 ) -> str:
     """Cooling with which losses make a bearing as warm as stated, in words."""
     air = options.ambient_temperature
     if power is None:
         return ""
-    stated = [options.temperature_at(place) - air for place in power["bearing"].values.tolist()]
+    stated = [options.temperature_of(parts[p]) - air for p in power["bearing"].values.tolist()]
     if min(stated) <= 0:
         return f": no warmer than the air, {air - CELSIUS:.0f} °C"
-    often = xr.DataArray(share / share.sum(), {"case": table["case"].values}, ["case"])
+    often = xr.DataArray(share / share.sum(), {"case": cases}, ["case"])
     rise = xr.DataArray(stated, power["bearing"].coords)
-    lost = (power.sel(case=table["case"].values) * often).sum("case") / rise
+    lost = (power.sel(case=cases) * often).sum("case") / rise
     told = ", ".join(f"{float(each):.3g}" for each in lost.values)
     where = ", ".join(map(str, lost["bearing"].values))
     return (

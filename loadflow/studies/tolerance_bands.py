@@ -14,7 +14,8 @@ from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.candidate import Candidate
-from loadflow.scene.friction import Cooling, Friction
+from loadflow.scene.cooling import Cooling
+from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
@@ -109,7 +110,7 @@ def _friction(run: Finished) -> Friction:
     table = run.tables["rolling"]["bearing_temperature"]
     warmest = {
         place: Cooling(temperature=float(table.sel(bearing=place).max()))
-        for place in options.balances(table["bearing"].values.tolist())
+        for place in options.balances(run.scene.rolling.bearings.values())
     }
     stated = {"cooling": options.cooling | warmest, "conductance": None}
     return options.model_copy(update=stated)
@@ -268,7 +269,7 @@ def _of_rolling(
     torques: dict[str, list[float]] = {}
     for place, stated in parts.items():
         part, samples = as_stated(stated, friction), spectrum[place].to_dataset()
-        bearing, own = part.geometry, friction.of(place)
+        bearing, own = part.geometry, friction.of(stated)
         force, moment, speed = (
             samples[name].transpose("sample", ...).values for name in ("force", "moment", "speed")
         )

@@ -1,5 +1,7 @@
 """Each rolling bearing has its own cooling, in runs, comparisons and designs."""
 
+import tomllib
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -9,8 +11,11 @@ from loadflow.errors import InputError
 from loadflow.planning.accuracy import errors_beside, expected_errors
 from loadflow.planning.effects import Estimates, switched
 from loadflow.planning.plan import make_plan
+from loadflow.scene.candidates import candidates_of, machine_names
 from loadflow.scene.cases import list_cases
-from loadflow.scene.friction import Cooling, Friction
+from loadflow.scene.cooling import Cooling
+from loadflow.scene.friction import Friction
+from loadflow.scene.places import GEOMETRIES
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
@@ -67,7 +72,7 @@ def test_what_a_stated_temperature_would_be_off_is_indicated(cooled):
     _, scene, table, *_ = cooled
     assert ROLLING_HEAT.is_on(scene)
     without = switched(scene, ROLLING_HEAT, False)
-    assert without.friction.balances(["N", "N2"]) == []
+    assert without.friction.balances(without.rolling.bearings.values()) == []
     assert ROLLING_HEAT.switched(without, True) is None  # nobody knows its cooling
     sizes = ROLLING_HEAT.indicator(situation(scene, list_cases(scene)))
     oil, assumed = lubrication(scene.friction).oil, scene.friction.temperature
@@ -153,11 +158,62 @@ def _of_two(cooling):
 
 def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():
     friction = Friction(conductance=60.0, cooling={"N": Cooling(temperature=330.0)})
-    assert friction.conductance_at("N") is None
-    assert friction.temperature_at("N") == friction.of("N").temperature == 330.0
-    assert friction.conductance_at("N2") == friction.of("N2").conductance == 60.0
+    N, N2 = _of_two({}).rolling.bearings.values()
+    assert friction.conductance_of(N) is None
+    assert friction.temperature_of(N) == friction.of(N).temperature == 330.0
+    assert friction.conductance_of(N2) == friction.of(N2).conductance == 60.0
     warmer = friction.warmed(lambda kelvin: kelvin + 5.0)
-    assert (warmer.temperature_at("N"), warmer.temperature_at("N2")) == (335.0, 318.15)
+    assert (warmer.temperature_of(N), warmer.temperature_of(N2)) == (335.0, 318.15)
+
+
+def test_sized_bearings_have_the_cooling_of_their_machine_unless_the_scene_states_another():
+    def of(**friction):
+        data = {"name": "x", "bearings": ["two-spherical"], "results": ["rolling.friction"]}
+        return make_scene(data | {"shaft": {"two_point": {}}, "friction": friction})
+
+    sized, warm = of(), of(temperature=330.0)
+    parts = sized.rolling.bearings.values()
+    assert ROLLING_HEAT.is_on(sized)
+    assert not unused_keys(sized)
+    for part in parts:  # 15 W/(m² K) of a round housing of 1.53 m, 0.49 m wide, around 0.77 m
+        assert sized.friction.conductance_of(part) == pytest.approx(77.0, rel=0.01)
+        assert of(conductance=5.0).friction.conductance_of(part) == 5.0
+        assert warm.friction.conductance_of(part) is None
+        assert warm.friction.temperature_of(part) == warm.friction.of(part).temperature == 330.0
+    assert not ROLLING_HEAT.concerns(warm)
+    own = of(cooling={"N": {"temperature": 330.0}}).friction
+    assert [own.states(part) for part in parts] == [True, False]
+    without = switched(sized, ROLLING_HEAT, False)
+    assert without.friction.balances(without.rolling.bearings.values()) == []
+    assert make_scene(tomllib.loads(sized.to_toml())) == sized
+
+
+def test_every_rolling_bearing_that_is_sized_states_a_cooling():
+    for turbine in machine_names():
+        for name, candidate in candidates_of(turbine).items():
+            parts = [part for part in candidate.values() if isinstance(part, dict)]
+            for part in parts:
+                if part["kind"] in GEOMETRIES:
+                    assert part["cooling"]["transfer"] > 0, f"{turbine}: {name}"
+
+
+def test_a_cooling_of_a_bearing_that_changes_nothing_is_told():
+    def unused(**data):
+        bearing = {"kind": "ball", "geometry": BALLS, "cooling": {"conductance": 9.0}}
+        scene = {"name": "x", "results": ["rolling.life"], "shaft": {"moment": {}}}
+        return unused_keys(make_scene(scene | {"bearings": {"M": bearing}} | data))
+
+    assert "rolling.cooling" not in unused()
+    assert "goes before" in unused(friction={"conductance": 5.0})["rolling.cooling"]
+    assert "neither friction nor life" in unused(results=["rolling.loads"])["rolling.cooling"]
+
+
+def test_a_housing_of_a_bearing_with_elements_of_several_sizes_is_to_be_stated():
+    row = {"rollers": 150, "roller_diameter": 0.05, "roller_length": 0.05, "pitch_diameter": 2.5}
+    rows = {name: row for name in ("support", "retaining", "radial")}
+    bearing = {"kind": "three-row", "geometry": rows, "cooling": {"transfer": 15.0}}
+    with pytest.raises(InputError, match="several sizes"):
+        make_scene({"name": "x", "shaft": {"moment": {}}, "bearings": {"M": bearing}})
 
 
 @pytest.mark.parametrize(

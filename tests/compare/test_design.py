@@ -21,8 +21,9 @@ from loadflow.journal import JournalBearing
 from loadflow.running.comparison import Means, shared_loads
 from loadflow.running.designing import _left_out, chosen_candidate, design
 from loadflow.scene.candidate import Candidate
+from loadflow.scene.cooling import Cooling
 from loadflow.scene.design import Design
-from loadflow.scene.friction import Cooling, Friction
+from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
@@ -224,7 +225,8 @@ def test_a_cooling_varies_from_what_the_scene_states_and_is_written_with_the_des
     assert start_of(space) == [12.0]
     text = scene_with_bearings(scene, "best", *space.data([20.0]), "words")
     written = make_scene(tomllib.loads(text)).friction
-    assert [written.conductance_at(place) for place in ("N", "N2")] == [20.0, 80.0]
+    parts = scene.candidates["two-spherical"].rolling.bearings.values()
+    assert [written.conductance_of(part) for part in parts] == [20.0, 80.0]
 
 
 def test_a_design_has_the_collar_of_its_candidate_and_none_of_the_scene():

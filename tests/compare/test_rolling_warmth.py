@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from loadflow.rolling import BallBearing
+from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_factor import grown
@@ -90,8 +92,14 @@ def test_a_stated_temperature_tells_the_cooling_with_which_losses_give_it():
         {"bearing_temperature": (("case", "bearing"), np.full((2, 2), 313.15))}, cases
     )
     power = xr.DataArray([[200.0, 800.0], [600.0, 800.0]], cases, ("case", "bearing"))
-    found = warmest(Friction(), table, power, np.array([0.75, 0.25]))
+    parts = _two_parts()
+    found = warmest(Friction(), parts, table, power, np.array([0.75, 0.25]))
     assert found.value == pytest.approx(40.0)
     assert "cooling of 15, 40 W/K (N, N2) to 20 °C" in found.note
-    cold = warmest(Friction(temperature=283.15), table, power, np.ones(2))
+    cold = warmest(Friction(temperature=283.15), parts, table, power, np.ones(2))
     assert "no warmer than the air" in cold.note
+
+
+def _two_parts():
+    balls = BallBearing(balls=20, ball_diameter=0.05, pitch_diameter=0.6, groove_radius=0.026)
+    return {place: FurtherBearing(bearing=place, geometry=balls) for place in ("N", "N2")}

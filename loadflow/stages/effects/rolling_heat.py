@@ -15,18 +15,15 @@ from loadflow.rolling.friction.catalogue import (
     palmgren_load_torque,
 )
 from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.cooling import Cooling
 from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
-from loadflow.stages.effects.rolling import SECTION_SIDE
 from loadflow.stages.effects.situation import BearingLoad, Floats, Situation
 from loadflow.tribology import lubricant
 
-TRANSFER = 15.0
-"""Of a housing in still air, W/(m² K), where no cooling is stated; assumed."""
-
-HOUSING = 1.5
-"""Diameter and width of a housing over those of its bearing, where no cooling is stated."""
+HOUSED = Cooling(transfer=15.0)
+"""Of a bearing where no cooling is stated: a housing in still air, assumed (docs/compare.md)."""
 
 HOTTEST = 150.0  # K above the air, to which the balance is sought
 _HALVINGS = 30
@@ -57,8 +54,8 @@ def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, spee
     bearing: Any = part.geometry
     oil, turns = lubricant(options.lubricant), np.abs(speed) > 0
     own = _Friction(bearing, load, speed, turns)
-    conductance = options.conductance_at(part.bearing) or _assumed(bearing)
-    air, stated = options.ambient_temperature, options.temperature_at(part.bearing)
+    conductance = options.conductance_of(part) or HOUSED.conductance_of(bearing)
+    air, stated = options.ambient_temperature, options.temperature_of(part)
     low, high = np.full(own.speed.shape, air), np.full(own.speed.shape, air + HOTTEST)
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
@@ -112,35 +109,35 @@ class _Friction:
         return np.array(found)
 
 
-def _assumed(bearing: Any) -> float:
-    """Conductance of a housing around a bearing, W/K: mantle and both faces."""
-    balls = bearing.element == "ball"
-    element = bearing.ball_diameter if balls else getattr(bearing, "roller_length", 0.1)
-    width = getattr(bearing, "row_spacing", 0.0) + SECTION_SIDE / 2 * element
-    across = HOUSING * bearing.pitch_diameter
-    area = np.pi * across * HOUSING * width + 0.5 * np.pi * across**2
-    return TRANSFER * float(area)
-
-
 def _unknown(scene: Scene) -> dict[str, FurtherBearing]:
     """Bearings, by place, that have no temperature of their own: a balance tells it, or nobody."""
     return {
         place: part
         for place, part in scene.rolling.bearings.items()
-        if part.balances_heat and not scene.friction.states(place)
+        if part.balances_heat and not scene.friction.states(part)
     }
 
 
 def _all_balanced(scene: Scene) -> bool:
-    places = _unknown(scene)
-    return len(scene.friction.balances(places)) == len(places)
+    parts = _unknown(scene).values()
+    return len(scene.friction.balances(parts)) == len(parts)
 
 
 def _switched(scene: Scene, on: bool) -> Scene | None:
     """The scene with the heat balances that it states, or without any."""
     if on:
         return scene if _all_balanced(scene) else None
-    return scene.model_copy(update={"friction": scene.friction.without_balance()})
+    rolling = _uncooled(scene.rolling)
+    rolling = rolling.model_copy(update={"further": [_uncooled(one) for one in rolling.further]})
+    friction = scene.friction.without_balance()
+    return scene.model_copy(update={"friction": friction, "rolling": rolling})
+
+
+def _uncooled(part: Any) -> Any:
+    """A bearing without what it states of its cooling, unless that is a temperature."""
+    if part.cooling is None or part.cooling.temperature is not None:
+        return part
+    return part.model_copy(update={"cooling": None})
 
 
 HEAT_COSTS = {"rollers": 6.0, "balls": 30.0}
@@ -160,14 +157,14 @@ def _cost(scene: Scene) -> float:
 ROLLING_HEAT = Effect(
     "heat of rolling bearings",
     model="rolling",
-    keys=("friction.conductance", "friction.cooling"),
+    keys=("friction.conductance", "friction.cooling", "rolling.cooling"),
     is_on=_all_balanced,
     switched=_switched,
     indicator=_heat,
     larger=lambda scene: UNKNOWN,  # nobody knows a housing that is not stated
     smaller=15.0,
-    out="no friction.conductance or friction.cooling: the oil is as warm as friction.temperature",
-    needs="friction.conductance, or a table friction.cooling of each bearing",
+    out="no cooling is stated: the oil is as warm as friction.temperature",
+    needs="friction.conductance, or the cooling of each bearing",
     concerns=lambda scene: (
         (scene.wants("rolling") or "rolling.friction" in scene.results)
         and bool(_unknown(scene))
