@@ -210,7 +210,7 @@ def test_a_cooling_of_a_bearing_that_changes_nothing_is_told():
 
 def test_a_housing_of_a_bearing_with_elements_of_several_sizes_is_to_be_stated():
     row = {"rollers": 150, "roller_diameter": 0.05, "roller_length": 0.05, "pitch_diameter": 2.5}
-    rows = {name: row for name in ("support", "retaining", "radial")}
+    rows = dict.fromkeys(("support", "retaining", "radial"), row)
     bearing = {"kind": "three-row", "geometry": rows, "cooling": {"transfer": 15.0}}
     with pytest.raises(InputError, match="several sizes"):
         make_scene({"name": "x", "shaft": {"moment": {}}, "bearings": {"M": bearing}})

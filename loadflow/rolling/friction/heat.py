@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -172,6 +173,7 @@ def balanced_temperature(
         state = result(temperature) if callable(result) else result
         return model(state, speed, replace(options, temperature=temperature))
 
+    @cache  # the search begins with the ends that are asked before
     def surplus(temperature: float) -> float:
         power = friction(temperature).power
         share = (
@@ -186,12 +188,14 @@ def balanced_temperature(
     low = ambient
     if callable(result):
         low, hottest = _first_span(surplus, ambient, hottest)
+    elif (cold := ambient + idle / conductance) < hottest and surplus(cold) <= 0:
+        hottest = cold  # warm oil seldom loses more than cold oil
     left = surplus(hottest)
     if left > 0:
         raise SolverError(
             f"heat balance: {left:.3g} W are left at {hottest:g} K; conductance {conductance:g} W/K"
         )
-    found, report = brentq(surplus, low, hottest, xtol=1e-6, full_output=True)
+    found, report = brentq(surplus, low, hottest, xtol=1e-5, full_output=True)
     residual = abs(surplus(found)) / idle
     return HeatBalance(
         float(found),
