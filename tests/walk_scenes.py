@@ -526,6 +526,7 @@ OTHERS = {
     "design.crown": [{}],
     "design.keys.geometry.width.values": [[1.0, 2.0]],
     "….seat": [{"kind": "elastic", "stiffness": 1e7}],
+    "….cooling": [{"conductance": 20.0}],
     "….catalogue": [{"bore": 0.9, "outside_diameter": 1.5}, {"bore": 0.9, "outside_diameter": 2.2}],
     "rolling.further.0.mounting": [{"inner_temperature": 300.0}],
     "rolling.further.0.oscillation": [{"amplitude": 0.1, "frequency": 0.1}],
