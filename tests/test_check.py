@@ -55,6 +55,23 @@ def test_the_warning_of_a_film_in_motion_shrinks_with_its_grid(cube, tmp_path):
     assert moved[1] < moved[0]
 
 
+def test_the_check_goes_to_finer_cells_until_they_hold_the_accuracy(cube, tmp_path):
+    """So a run takes these at once, and none of those between that are not good enough."""
+
+    def row(up):
+        film = FILM | {"motion": "transient", "grid": [24 * 2**up, 8], "heat": None}
+        scene = scene_of(cube, "journal.film", journal=film, accuracy=0.001)
+        found = checked(scene, tmp_path / str(up))
+        chosen = (found["stage"] == "journal") & (found["quantity"] == "eccentricity ratio")
+        return found.isel(check=int(np.flatnonzero(chosen.values)[0]))
+
+    first = row(0)
+    up = int(first["rungs"])
+    assert up > 1
+    assert row(up - 1)["difference"] > 0.001
+    assert row(up)["difference"] <= 0.001
+
+
 def test_a_film_that_started_lately_is_followed_again_from_its_start():
     """Oil that was lacking as it stood comes as fast as the shaft turns."""
     speed = np.concatenate([np.zeros(100), np.full(900, 1.0)])
@@ -168,6 +185,10 @@ def test_a_model_is_refined_only_where_nothing_that_stays_is_further_off():
     assert to_refine(tree, lambda stage: stage != stays, lambda *row: 1) == ["rolling"]
     every = to_refine(tree, lambda stage: True, lambda stage, *row: 2 if stage == "journal" else 1)
     assert every == ["journal", "journal", stays, "rolling"]
+    values["rungs"] = "check", [3, 0, 0, 0]  # those that the check solved, too
+    tree = xr.DataTree.from_dict({"check": xr.Dataset(values, texts)})
+    every = to_refine(tree, lambda stage: True, lambda stage, *row: 1)
+    assert every == ["journal"] * 3 + [stays, "rolling"]
 
 
 def test_a_film_is_off_by_more_than_the_next_cells_move_it_and_other_models_by_what_they_do(

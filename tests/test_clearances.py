@@ -12,7 +12,8 @@ from synthetic import cube_file
 
 from benchmarks.ladder.physics import kept_so_far
 from benchmarks.ladder.physics_sizes import in_clearances
-from loadflow.errors import InputError
+from loadflow.cube import make_case
+from loadflow.errors import InputError, SolverError
 from loadflow.planning import pilot
 from loadflow.planning.asked import resting
 from loadflow.planning.pilot import Questions, measure
@@ -22,8 +23,10 @@ from loadflow.scene.scene import make_scene
 from loadflow.scene.shaft_place import floating, move_together
 from loadflow.scene.thrust import Thrust
 from loadflow.stages import bores, thrust
+from loadflow.stages import shaft as shaft_stage
 from loadflow.stages.effects import clearances
 from loadflow.stages.effects.clearances import CLEARANCES, closed_ends, slopes
+from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.film_tilt import TILT
 from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
@@ -176,13 +179,39 @@ def test_what_a_pilot_asks_after_films_it_asks_around_the_shaft_in_these_films(m
     for name, run in (("loads", lambda *about: None), ("shaft", lies_in)):
         monkeypatch.setitem(STAGES, name, replace(STAGES[name], run=run))
     probe = Probe(("loads", "shaft"), answers)
-    monkeypatch.setattr(pilot, "PROBES", {"journal": probe, "thrust": probe})
+    probes = {"journal": probe, "thrust": replace(probe, around_shaft=True)}
+    monkeypatch.setattr(pilot, "PROBES", probes)
     names = (CLEARANCES.name, "heat of the collar")
     measure(Questions(scene, names, 60.0, ()), list_cases(scene)[0])
     assert {tuple(lies) for lies, _ in asked} == {(), ("N", "N2")}
     assert asked[-1][0] == ["N", "N2"]
     for lies, found in asked:
         assert lies == found
+
+
+@pytest.mark.filterwarnings("ignore:shaft and films in motion")
+def test_a_pilot_of_films_that_follow_their_shaft_follows_none_besides(monkeypatch):
+    """What it reads of the stage of the shaft tells it which stretch is asked, and no more."""
+    followed = []
+
+    def on_films(scene, concept, loads, tilt):
+        followed.append(concept)
+        raise SolverError("followed")
+
+    monkeypatch.setattr(shaft_stage, "shaft_on_films", on_films)
+    steps = np.arange(200)
+    vectors = np.tile([[4e5], [0.0], [-2e6]], steps.size)
+    data = {"speed": np.full(steps.size, 1.2), "hub_force": vectors, "hub_moment": 0.0 * vectors}
+    loads = make_case(0.025 * steps, data, dlc="1.1", wind_speed=8.0, seed=1)
+    scene = scene_of(FLOATS, motion="transient", rung="reduced")
+    read = []
+    probe = Probe(("loads", "shaft"), lambda scene, case, inputs: read.append(inputs) or {})
+    for around in (False, True):
+        monkeypatch.setitem(pilot.PROBES, "journal", replace(probe, around_shaft=around))
+        questions = Questions(scene, (HEAT.name,), 60.0, ())
+        measure(questions, list_cases(scene)[0], {"loads": loads})
+        assert bool(followed) == around
+    assert all(one["shaft"]["force"].sizes["time"] == steps.size for one in read)
 
 
 def test_a_shaft_in_films_is_another_one_where_these_are():

@@ -109,9 +109,9 @@ def test_an_effect_without_a_bound_is_kept_until_somebody_measures_it():
 
 
 def test_a_floating_shaft_is_followed_through_a_start_before_the_run_of_many_alone():
-    """With heat and without took 2.0 s of a stop before a run of 2.6 s, 3.8 s of a start."""
+    """With heat and without takes 1.4 s, of a stop before a run of 2.9 s."""
     one = ten_scenes()["start, 5 MW"]
-    loads = one.loads.model_copy(update={"wind_speeds": list(range(4, 25)), "seeds": 3})
+    loads = one.loads.model_copy(update={"wind_speeds": list(range(4, 25, 2))})
     many = one.model_copy(update={"loads": loads})
     assert pilot(one, outcomes=None, brief=True) is None  # else None would be called
     assert HEAT.name in asked(one)  # by plan --pilot

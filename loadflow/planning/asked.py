@@ -12,19 +12,25 @@ from loadflow.errors import LoadflowError
 from loadflow.planning.effects import switched
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.shaft_place import any_moves_in_films
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.probes import Answers, Probe
 from loadflow.stages.registry import STAGES
+from loadflow.stages.shaft import bearing_loads
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A probe of a case: series by stage, and the shaft's by what it rests on (`resting`)."""
+    """A probe of a case: series by stage, and the shaft's by what it rests on (`resting`).
+
+    Unless it `follows` them, shafts that move in their films lie on rigid bearings.
+    """
 
     probe: Probe
     case: Case
     inputs: Mapping[str, Any]
     shafts: dict[str, Any]
+    follows: bool = True
 
     def answers(self, one: Scene) -> Answers:
         """What the probe answers of a scene."""
@@ -36,8 +42,15 @@ class Asked:
             return self.inputs
         key = resting(one)
         if key not in self.shafts:
-            self.shafts[key] = STAGES["shaft"].run(one, self.case, dict(self.inputs))
+            self.shafts[key] = lying_shaft(one, self.case, self.inputs, self.follows)
         return {**self.inputs, "shaft": self.shafts[key]}
+
+
+def lying_shaft(scene: Scene, case: Case, inputs: Mapping[str, Any], follows: bool) -> Any:
+    """Series of the shaft's stage; shafts that move in their films without these, or `follows`."""
+    if follows or not any_moves_in_films(scene.shaft, scene.journal):
+        return STAGES["shaft"].run(scene, case, dict(inputs))
+    return bearing_loads(scene, case, dict(inputs), follows=False)
 
 
 def resting(scene: Scene) -> str:

@@ -17,7 +17,7 @@ from threadpoolctl import threadpool_limits
 
 from loadflow.errors import SolverError
 from loadflow.planning.accuracy import contributions, surely_small
-from loadflow.planning.asked import Asked, changes, resting, tried, without
+from loadflow.planning.asked import Asked, changes, lying_shaft, resting, tried, without
 from loadflow.planning.choice import Choice
 from loadflow.planning.effects import EffectVerdict, Estimates, concerned, estimates, switched
 from loadflow.planning.ladder import expected_seconds
@@ -26,6 +26,7 @@ from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import any_moves_in_films
 from loadflow.stages.effects.effect import Effect, Sizes
+from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
@@ -36,6 +37,9 @@ from loadflow.wind.cases import load_case
 SHARE = 0.05
 """Processor time of a pilot over that of its run, at most, where the ladder knows both; a pilot of
 one case is then within a tenth of the time of two processes."""
+
+MOST = 0.1
+"""The same of a pilot that follows a shaft in its films near standstill."""
 
 SOLVED = 1.0
 """Processor time of the films and contacts of a case of a pilot, s; the main job's."""
@@ -110,6 +114,12 @@ class Questions:
         """Models that have an effect to measure, in the order in which they are probed."""
         found = {effect.probed for effect in EFFECTS if effect.name in self.effects}
         return tuple(model for model in PROBES if model in found)
+
+    @property
+    def around_shaft(self) -> bool:
+        """Whether one of them, as of films at rest, reads where a shaft lies in films that move."""
+        found = [one for one in EFFECTS if one.name in {*self.effects} - {*self.settled}]
+        return any(one is MOTION or PROBES[one.probed].around_shaft for one in found)
 
     def of_model(self, model: str, duration: float) -> Questions:
         """Those of one model alone, on a simulated case of `duration`, s."""
@@ -234,14 +244,13 @@ def effort_for(scene: Scene, effects: Iterable[Effect], cases: tuple[Case, ...])
 def _takes_long(chosen: Scene, effort: Effort, cases: tuple[Case, ...]) -> bool:
     """Whether a shaft is to be followed in its films through too large a part of a run.
 
-    Of starts and stops alone: a start is seen whole, and a stop of 60 s takes as long as a whole
-    run of one, as the stretch of each bearing is followed after a past of its own.
+    Of starts and stops alone, of about a load case: near standstill the past of a stretch is long.
     """
     floats = any_moves_in_films(chosen.shaft, chosen.journal)
     if not floats or not comes_from_or_to_standstill(chosen):
         return False
-    one = _seconds(chosen, ("loads", "journal"), cases[:1])
-    return effort.cases * one > SHARE * _seconds(chosen, needed_stages(chosen), cases)
+    one = _seconds(chosen, ("loads", "shaft", "journal"), cases[:1])
+    return effort.cases * one > MOST * _seconds(chosen, needed_stages(chosen), cases)
 
 
 def _seconds(scene: Scene, stages: Iterable[str], cases: tuple[Case, ...]) -> float:
@@ -359,14 +368,16 @@ def measure(questions: Questions, case: Case, given: Mapping[str, Any] | None = 
             ours = [one for one in ours if one.name not in questions.settled or one.is_on(scene)]
         try:
             for name in probe.reads:
-                if name not in inputs:
+                if name == "shaft" and name not in inputs:
+                    inputs[name] = lying_shaft(scene, case, inputs, questions.around_shaft)
+                    shafts[resting(scene)] = inputs[name]
+                elif name not in inputs:
                     inputs[name] = STAGES[name].run(scene, case, inputs)
-                    shafts |= {resting(scene): inputs[name]} if name == "shaft" else {}
         except SolverError:
             break  # the run itself says so of this case
         if not probe.can_answer(case, inputs):
             continue
-        asked = Asked(probe, case, inputs, shafts)
+        asked = Asked(probe, case, inputs, shafts, questions.around_shaft)
         answers = asked.answers
 
         scene, best = _all_on(scene, ours, answers, refused)

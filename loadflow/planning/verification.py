@@ -19,7 +19,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import COMPARED, READ, Difference, compare
 from loadflow.stages.journal import FILM as FILM_MODEL
-from loadflow.stages.registry import STAGES
+from loadflow.stages.registry import STAGES, models
 from loadflow.stages.stage import Stage, always
 from loadflow.stages.thrust import RUNGS as PADS_MODEL
 
@@ -51,6 +51,11 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
                 np.array([_allowed(scene, row) for row in found]),
                 {"units": "1", "long_name": "accuracy asked for; NaN where none is"},
             ),
+            "rungs": (
+                "check",
+                np.array([_rungs(scene, row) for row in found], int),
+                {"units": "1", "long_name": "rungs finer that hold it; 0 where not solved on them"},
+            ),
         },
         {name: ("check", np.array([getattr(row, name) for row in found], str)) for name in text},
     )
@@ -65,7 +70,8 @@ def to_refine(
 
     They differ by more than that, `can` be refined, and are not outweighed in every such answer by
     what cannot be: a finer grid is no help where the effect of motion, left out, is larger. Each is
-    named as often as it takes, by what `rungs` says of stage, quantity, difference and allowance.
+    named as often as it takes: by the finer rungs that the check solved, else by what `rungs` says
+    of stage, quantity, difference and allowance.
     """
     if "check" not in tree.children:
         return []
@@ -84,7 +90,7 @@ def to_refine(
     for stage, answer, row in rows:
         difference, allowed = row["difference"].item(), row["allowed"].item()
         if able[stage] and difference > fixed.get(answer, 0.0):
-            up = rungs(stage, answer[1], difference, allowed)
+            up = int(row.get("rungs", 0)) or rungs(stage, answer[1], difference, allowed)
             helps[stage] = max(helps.get(stage, 0), up)
     return [stage for stage, up in helps.items() for _ in range(up)]
 
@@ -135,6 +141,21 @@ def _off_by(scene: Scene, row: Difference) -> float:
     if row.stage not in (FILM_MODEL.name, PADS_MODEL.name):
         return row.value
     return error_by_change(scene, row.stage, row.quantity, row.value)
+
+
+def _rungs(scene: Scene, row: Difference) -> int:
+    """How many rungs finer an answer holds the accuracy, by those on which it was solved again.
+
+    One beyond these where none does, as far as they go; 0 where the next one alone was solved.
+    """
+    if not row.finer:
+        return 0
+    one, allowed = scene, _allowed(scene, row)
+    for up, change in enumerate((row.value, *row.finer)):
+        if error_by_change(one, row.stage, row.quantity, change) <= allowed:
+            return up
+        one = models()[row.stage].finer(one) or one
+    return 1 + len(row.finer)
 
 
 def _allowed(scene: Scene, row: Difference) -> float:

@@ -24,7 +24,13 @@ from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
 from loadflow.stages.kept_samples import stretch
 from loadflow.stages.loads import ROTOR, hub_loads
-from loadflow.stages.paths_again import FILM, extremes_of_orbit, paths_again, running_ratio
+from loadflow.stages.paths_again import (
+    FILM,
+    Better,
+    extremes_of_orbit,
+    paths_again,
+    running_ratio,
+)
 from loadflow.stages.reduction import governing_load
 from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.running_time import counted, running
@@ -66,8 +72,8 @@ def compare(
 
 def _film(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
     again = paths_again if scene.journal.in_motion else _films
-    for model, against, options in _better_films(scene, case, parts):
-        yield from again(scene, case, parts, model, against, options)
+    for stage, models, own in _better_films(scene, case, parts):
+        yield from again(scene, case, parts, stage, models, own)
     if not scene.journal.in_motion:
         yield from _motion(scene, case, parts)
 
@@ -149,26 +155,38 @@ def _answered(parts: Parts) -> list[str]:
 
 def _better_films(
     scene: Scene, case: Case, parts: Parts
-) -> Iterator[tuple[str, str, dict[str, Journal]]]:
-    """Stage, name and, by bearing, journal bearing of each model that the film is compared with.
+) -> Iterator[tuple[str, list[Better], dict[str, Journal] | None]]:
+    """Stage, better models of the film from the next one on, and of other cells the film as it is.
 
     None of a shaft that stands throughout: what it rests on as it creeps in its brake depends on
     the cells, however fine they are.
     """
     films = {b: parts["journal"][b].to_dataset() for b in _answered(parts)}
     films = {b: film for b, film in films.items() if np.isfinite(running_ratio(case, film)).any()}
+    if not films:
+        return
     if scene.journal.heat is None:
         warmer = {b: _warmer(scene.journal.at(b), film) for b, film in films.items()}
-        yield HEAT.name, "oil warmed by its friction", warmer
+        yield HEAT.name, [("oil warmed by its friction", warmer)], None
     other, against = other_cells(scene)
-    if other is not None:
-        options = {bearing: other.journal.at(bearing) for bearing in films}
-        if other.journal.in_motion and other.journal.heat is not None:
-            options = {
-                bearing: options[bearing].at_temperature(float(film["temperature"].median()))
-                for bearing, film in films.items()
-            }
-        yield FILM_MODEL.name, against, options
+    if other is None:
+        return
+    models = [(against, _held_warm(other, films))]
+    if scene.journal.in_motion and scene.journal.rung == "reduced" and FILM_MODEL.finer(scene):
+        while (other := FILM_MODEL.finer(other)) is not None:
+            models.append((f"the film {FILM_MODEL.key(other)}", _held_warm(other, films)))
+    yield FILM_MODEL.name, models, _held_warm(scene, films)
+
+
+def _held_warm(scene: Scene, films: Mapping[str, xr.Dataset]) -> dict[str, Journal]:
+    """The journal bearings of `films`, at the temperature that each has in motion."""
+    options = {bearing: scene.journal.at(bearing) for bearing in films}
+    if not scene.journal.in_motion or scene.journal.heat is None:
+        return options
+    return {
+        bearing: options[bearing].at_temperature(float(film["temperature"].median()))
+        for bearing, film in films.items()
+    }
 
 
 def other_cells(scene: Scene) -> tuple[Scene | None, str]:
@@ -203,13 +221,19 @@ def _warmer(options: Journal, film: xr.Dataset) -> Journal:
 
 
 def _films(
-    scene: Scene, case: Case, parts: Parts, stage: str, against: str, options: dict[str, Journal]
+    scene: Scene,
+    case: Case,
+    parts: Parts,
+    stage: str,
+    models: list[Better],
+    own: dict[str, Journal] | None,
 ) -> Iterator[Difference]:
-    """Equilibria of a few samples.
+    """Equilibria of a few samples, by the next better of `models`; those there are, are `own`.
 
     Of those in which the rotor runs: as it comes to a stand, films get as thin as any cells fail to
     resolve, until the surfaces touch, and what is asked of them there is when they do.
     """
+    against, options = models[0]
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
         places = _spread(running_ratio(case, film))

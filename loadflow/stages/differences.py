@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -14,7 +15,8 @@ class Difference:
     """How much an answer moves when a model is replaced by a better one.
 
     `stage` names the model or the effect, `result` is what the answer belongs to, `value` the
-    relative change at its largest.
+    relative change at its largest. `finer` are the changes by each rung beyond, where these were
+    solved, too.
     """
 
     stage: str
@@ -23,6 +25,7 @@ class Difference:
     case: str
     against: str
     value: float
+    finer: tuple[float, ...] = ()
 
 
 def differences(
@@ -31,12 +34,14 @@ def differences(
     where: str,
     against: str,
     ours: Mapping[str, Any],
-    theirs: Mapping[str, Any],
+    *theirs: Mapping[str, Any],
 ) -> Iterator[Difference]:
-    """A difference for each quantity of `ours`."""
-    for name, values in ours.items():
-        change = relative(values, theirs[name])
-        yield Difference(stage, result, name.replace("_", " "), where, against, change)
+    """A difference for each quantity of `ours`, beside the next better model, and on from there."""
+    for name in ours:
+        values = [one[name] for one in (ours, *theirs)]
+        change, *finer = (relative(*pair) for pair in pairwise(values))
+        quantity = name.replace("_", " ")
+        yield Difference(stage, result, quantity, where, against, change, tuple(finer))
 
 
 def relative(ours: Any, theirs: Any) -> float:

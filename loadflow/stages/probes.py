@@ -64,12 +64,15 @@ class Probe:
 
     It is not asked in a case in which it cannot answer, and the effects stand by their indicators.
     What has another way where the first finds no answer `surely_answers`, with all effects on.
+    `around_shaft` is what reads where a shaft lies in films that it moves in, all along the case;
+    these films themselves are followed with it on the stretch that is asked.
     """
 
     reads: tuple[str, ...]
     answers: Callable[[Scene, Case, Mapping[str, Any]], Answers]
     can_answer: Callable[[Case, Mapping[str, Any]], bool] = lambda case, inputs: True
     surely_answers: bool = False
+    around_shaft: bool = False
 
 
 def hardest(scene: Scene, cases: tuple[Case, ...]) -> list[Case]:
@@ -261,7 +264,7 @@ PROBES: dict[str, Probe] = {
     "loads": Probe((), _of_rotor),
     "shaft": Probe(("loads",), _of_shaft),
     "journal": Probe(("loads", "shaft"), _of_film, _film_forms),
-    "thrust": Probe(("loads", "shaft"), _of_collars, surely_answers=True),
+    "thrust": Probe(("loads", "shaft"), _of_collars, surely_answers=True, around_shaft=True),
     "rolling": Probe(("loads", "shaft"), _of_contacts),
 }
 """By model; effects of models that have none are told by their indicators alone."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings as told
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -32,13 +33,16 @@ Floats = np.ndarray
 _GLIDING = 0.1  # share of the largest speed, above which a film changes with its logarithm
 
 
-def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
+def bearing_loads(
+    scene: Scene, case: Case, inputs: dict[str, Any], follows: bool = True
+) -> xr.Dataset:
     """Return `force` and `moment` (bearing, axis, time) of all suspensions of the scene.
 
     Where a shaft is a beam, also its `displacement`, `tilt` and `curvature` in each bearing; they
     are NaN in bearings of a rigid shaft beside it. `tilt` is that against the bore. Where the
     stiffness of supports comes from the scene's bearings, `converged` tells in which samples it
-    does; in the others, such as of a film at standstill, these bearings are rigid.
+    does; in the others, such as of a film at standstill, these bearings are rigid. Unless it
+    `follows` shafts that move in their films, these lie on rigid bearings that they turn freely in.
     """
     from loadflow.turbines import load_turbine
 
@@ -49,14 +53,16 @@ def bearing_loads(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Datase
         for name in ("hub_force", "hub_moment")
     )
     speed = series["speed"].values.astype(float)
-    parts = [
-        _with_films(scene, concept, series, tilt)
-        if followed_together(scene, concept, speed)
-        else _freely(concept, series, tilt)
-        if seats_felt(scene.shaft, scene.journal, concept)
-        else _suspended(scene, concept, force, moment, speed, tilt)
-        for concept in scene.shaft.concepts
-    ]
+
+    def lies(concept: Concept) -> xr.Dataset:
+        if followed_together(scene, concept, speed):
+            lying = partial(_with_films, scene) if follows else _freely
+            return lying(concept, series, tilt)
+        if seats_felt(scene.shaft, scene.journal, concept):
+            return _freely(concept, series, tilt)
+        return _suspended(scene, concept, force, moment, speed, tilt)
+
+    parts = [lies(concept) for concept in scene.shaft.concepts]
     if scene.shaft.yaw is not None:
         parts.append(yaw_loads(scene.shaft.yaw, force, moment, tilt=tilt))
     if scene.shaft.pitch is not None:

@@ -618,6 +618,16 @@ def test_kept_numbers_are_strict_json_and_come_back_as_they_were(tmp_path):
     )
 
 
+def test_numbers_are_found_anew_by_code_that_has_other_rows(monkeypatch):
+    run = SimpleNamespace(name="a", title="a", source="", scene=make_scene({"name": "c"}))
+    run.manifest = {}
+    before = kept_numbers.key_of(run)
+    assert before == kept_numbers.key_of(run)
+    more = QUANTITIES | {"hours": QUANTITIES["energy"]._replace(name="hours", unit="h")}
+    monkeypatch.setattr(kept_numbers, "QUANTITIES", more)
+    assert kept_numbers.key_of(run) != before
+
+
 def test_numbers_are_found_once_and_anew_where_they_rest_on_something_else(
     cube, found, tmp_path, monkeypatch
 ):

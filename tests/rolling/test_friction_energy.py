@@ -208,6 +208,13 @@ def test_heat_balance_sheds_what_friction_makes():
         friction.balanced_temperature(result, 300.0, OPTIONS, 0.0, 293.15)
 
 
+def test_a_heat_balance_that_is_not_found_is_refused_and_says_what_helps(monkeypatch):
+    result = MAIN_BEARING.equilibrium(force=(2000.0, 0, 0))
+    monkeypatch.setattr(friction.heat, "_MOST_STEPS", 2)  # too few for this one
+    with pytest.raises(SolverError, match=r"not found in 2 steps .* What helps: a conductance"):
+        friction.balanced_temperature(result, 300.0, OPTIONS, 2.0, 293.15)
+
+
 def test_rib_friction_lies_between_film_and_boundary():
     pair = RollerBearing(
         rollers=48, roller_diameter=0.04, roller_length=0.06, pitch_diameter=0.8,

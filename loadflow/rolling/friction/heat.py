@@ -32,6 +32,7 @@ _SHOWN = {
 }
 
 _HOTTEST = 200.0  # K above the surroundings that are searched
+_MOST_STEPS = 100  # of the search for the balance between two temperatures
 _STEP = 10.0  # K, of the search where the loss may overtake the cooling again
 
 
@@ -148,7 +149,7 @@ def balanced_temperature(
         If the conductance is not positive or the oil is not known so cold.
     SolverError
         If the bearing would run more than 200 K hot, as one does whose preload grows faster with
-        the temperature than what is carried off.
+        the temperature than what is carried off; or if no balance is found in 100 steps.
 
     Examples
     --------
@@ -195,8 +196,17 @@ def balanced_temperature(
         raise SolverError(
             f"heat balance: {left:.3g} W are left at {hottest:g} K; conductance {conductance:g} W/K"
         )
-    found, report = brentq(surplus, low, hottest, xtol=1e-5, full_output=True)
+    found, report = brentq(
+        surplus, low, hottest, xtol=1e-5, maxiter=_MOST_STEPS, full_output=True, disp=False
+    )
     residual = abs(surplus(found)) / idle
+    if not report.converged:
+        raise SolverError(
+            f"heat balance: not found in {_MOST_STEPS} steps from {low:.5g} to {hottest:.5g} K; at "
+            f"{found:.5g} K loss and cooling still differ by {residual:.3g} of the loss at "
+            f"{ambient:g} K. What helps: a conductance (now {conductance:g} W/K) that keeps the "
+            "bearing where its loss changes little with the temperature, or a stated temperature"
+        )
     return HeatBalance(
         float(found),
         friction(found),
