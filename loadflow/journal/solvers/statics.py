@@ -32,6 +32,7 @@ from loadflow.journal.solvers.load_stepping import (
     APART,
     has_touched,
     solve_by_approach,
+    solve_by_speed,
     solve_elastic_in_steps,
     solve_from_held,
 )
@@ -216,6 +217,8 @@ class Statics:
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
+        if in_steps and not (solution.converged or effort.over) and self._stands:
+            solution = self._from_standing(index, load, omega, control, effort) or solution
         if in_steps and not (solution.converged or effort.over):
             solution = self._in_steps(force, estimate, pads, limits, effort)
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
@@ -401,6 +404,24 @@ class Statics:
             floating = afloat()
         if floating is not None and not carried:
             yield floating.u, floating.position
+
+    @property
+    def _stands(self) -> bool:
+        """Whether the shaft stands on asperities before it turns."""
+        return self.film.contact is not None and self.film.speed != 0.0 and not self.gap.pads.size
+
+    def _from_standing(
+        self, index: int, load: Array, omega: float, control: Limits, effort: Effort
+    ) -> Solution | None:
+        """Equilibrium by way of slower speeds, from the shaft that stands; None: not found."""
+        film, standing = self.film, self.solve(index, load, 0.0, None, control, effort=effort)
+        film.set_speed(omega)
+        if not standing.converged or effort.over:
+            return None
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        force = self._force(index, load)
+        found = solve_by_speed(film, force, standing, omega, *limits, effort, self.shaft)
+        return found if found.converged else None
 
     def _by_other_loads(
         self, force: Array, estimate: Array, limits: tuple[float, int], effort: Effort
