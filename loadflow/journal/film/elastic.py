@@ -40,6 +40,7 @@ class ElasticFilm(DiscreteFilm):
         self.elastic = True
         self.stencil = np.empty((5, *gap.mesh.shape))
         self._share = 1.0  # share of its compliance that the shell has
+        self._all_at_once = 0.0  # cells squared of the systems that were solved so
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
@@ -67,6 +68,11 @@ class ElasticFilm(DiscreteFilm):
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
         self._share = share
         self.gap.grow(np.zeros(self.mesh.shape))
+
+    def further_work(self) -> float:
+        """What the film has taken beyond its Newton steps, as `Effort` counts, since last asked."""
+        work, self._all_at_once = self._all_at_once, 0.0
+        return work
 
     @property
     def _per_clearance(self) -> float:
@@ -189,6 +195,7 @@ class ElasticFilm(DiscreteFilm):
         )
         found, failed = gmres(matrix, scaled.ravel(), rtol=_EXACT, restart=_KRYLOV, maxiter=1)
         if failed:
+            self._all_at_once += columns.shape[1] ** 2
             every = preconditioned(np.eye(columns.shape[1]))
             columns[:] = np.linalg.solve(every.T, columns.T).T
         else:
