@@ -13,6 +13,7 @@ from loadflow.journal import (
     GasMixture,
     Groove,
     JournalBearing,
+    Lobes,
     Lubricant,
     MassConserving,
     Orifice,
@@ -237,3 +238,13 @@ def test_a_groove_beside_the_shell_is_named():
     half = replace(BEARING, shape=Arc(0.0, np.pi))
     with pytest.raises(InputError, match=r"grooves\[0\].angle = 3.0 .* an angle, rad, at which"):
         half.pressure((0.0, 0.0), 1.0, **options(Supply([Groove(3.0, arc=0.1)])))
+
+
+@pytest.mark.parametrize("between", [0.0, np.pi])
+def test_a_groove_in_the_groove_between_two_lobes_is_refused_wherever_that_is(between):
+    """Of two gaps between lobes the mesh has cells in one alone."""
+    shape = Lobes(2, preload=0.3, groove=0.35, angle=np.pi / 2)
+    bearing = JournalBearing(0.2, 0.2, 1e-3, shape=shape)
+    supply = Supply([Groove(between, arc=0.2, length=0.12, pressure=5e5)])
+    with pytest.raises(InputError, match=r"grooves\[0\].angle = .* an angle, rad, at which"):
+        bearing.equilibrium((8e3, 1e3), 20.0, **options(supply))

@@ -163,7 +163,8 @@ def _oil(
 ) -> tuple[CavitationLaw, float, float, float, float, Pockets]:
     """What a discrete film knows beside its gap; `around`: cells around that were asked for."""
     supply, liquid = options.supply, options.liquid
-    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, around, radius)
+    shell = ~mesh.groove if isinstance(mesh, ShapedMesh) else None
+    numbers = groove_numbers(mesh.angle, mesh.z, ratio, supply, around, radius, shell)
     mirrors = 2.0 if mesh.half else 1.0
     flow_unit = mirrors * (relative_clearance * radius) ** 3 / (12.0 * liquid.viscosity)
     pockets = Pockets(numbers, Feed(supply or Supply(), liquid), flow_unit)

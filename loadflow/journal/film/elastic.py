@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 
 _EXACT = 1e-8  # residual of the linear systems of a shell that spreads, over their right-hand side
 _KRYLOV = 60  # steps of GMRES that are tried
+_AT_ONCE = 0.5  # work over the cells squared where they lead nowhere, as that of films is counted
 _SMALLEST = 1.0 / 2**20  # share of a step below which there is none
 
 
@@ -40,6 +41,7 @@ class ElasticFilm(DiscreteFilm):
         self.elastic = True
         self.stencil = np.empty((5, *gap.mesh.shape))
         self._share = 1.0  # share of its compliance that the shell has
+        self._all_at_once = 0.0  # work of systems that were solved so
 
     def place(self, u: Array, position: Array) -> Array:
         """Evaluate law, shell and gap at `u` and `position`; returns the axes of the frame."""
@@ -67,6 +69,11 @@ class ElasticFilm(DiscreteFilm):
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
         self._share = share
         self.gap.grow(np.zeros(self.mesh.shape))
+
+    def further_work(self) -> float:
+        """What the film has taken beyond its Newton steps, as `Effort` counts, since last asked."""
+        work, self._all_at_once = self._all_at_once, 0.0
+        return work
 
     @property
     def _per_clearance(self) -> float:
@@ -189,6 +196,7 @@ class ElasticFilm(DiscreteFilm):
         )
         found, failed = gmres(matrix, scaled.ravel(), rtol=_EXACT, restart=_KRYLOV, maxiter=1)
         if failed:
+            self._all_at_once += _AT_ONCE * columns.shape[1] ** 2
             every = preconditioned(np.eye(columns.shape[1]))
             columns[:] = np.linalg.solve(every.T, columns.T).T
         else:

@@ -56,7 +56,13 @@ def on_one_segment(
 
 
 def groove_numbers(
-    angle: Array, z: Array, half_width: float, supply: Supply | None, count: int, radius: float
+    angle: Array,
+    z: Array,
+    half_width: float,
+    supply: Supply | None,
+    count: int,
+    radius: float,
+    shell: NDArray[np.bool_] | None = None,
 ) -> NDArray[np.int64]:
     """Number of the groove in which each cell (nx, nz) lies, −1 for none.
 
@@ -72,6 +78,8 @@ def groove_numbers(
         Cells around that were asked for.
     radius : float
         Of the shaft, m.
+    shell : array of bool (nx,), optional
+        Which columns face the shell, and no groove between its segments; all by default.
 
     Raises
     ------
@@ -94,7 +102,7 @@ def groove_numbers(
             inside = np.hypot(away, along) < half_length
         else:
             inside = (away < 0.5 * _arc(groove, count, radius)) & (along < half_length)
-        if not inside.any():
+        if not (inside if shell is None else inside[shell]).any():
             raise InputError(
                 f"grooves[{number}].angle = {groove.angle!r} is not allowed: an angle, rad, at "
                 "which there is shell"

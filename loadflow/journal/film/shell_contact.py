@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 _STEPS, _HALVINGS = 30, 8
 _LARGEST = 300.0  # growth by the film alone, clearances: an iteration that has lost its way
 _EXACT = 1e-13  # of growth and roughness, what is left of the balance of a shell
+_OF_CELLS = 2.5  # work of one of these steps over the cells, as that of films is counted
 _ENOUGH = 1e-9  # the same, beyond which there is no growth that fits
 
 
@@ -49,6 +50,7 @@ class ShellContact(YieldingNodeLoad):
         self._means = contact.asperities.scale * weights / areas[self._cells]
         self._free = ~self._held.ravel()
         self._unit_growth = 0.0
+        self.steps = 0  # of Newton's method, since they were last counted
         self._touching = np.zeros(0, dtype=np.int64)
         size = int(np.prod(mesh.shape))
         # rows of cells that have touched: of all cells they would be a gigabyte on fine grids
@@ -119,6 +121,7 @@ class ShellContact(YieldingNodeLoad):
 
     def _linearise(self, slope: Array) -> None:
         """Cells that touch, change of their pressure by all growth, and of all growth by theirs."""
+        self.steps += 1
         nodes = np.flatnonzero(slope)
         self._touching, number = np.unique(self._cells[nodes], return_inverse=True)
         count = self._touching.size
@@ -168,6 +171,12 @@ class TouchedFilm(ElasticFilm):
     """Film in a shell that gives way around what film and asperities press."""
 
     contact: ShellContact
+
+    def further_work(self) -> float:
+        """What the film has taken beyond its Newton steps, as `Effort` counts, since last asked."""
+        steps, self.contact.steps = self.contact.steps, 0
+        cells = float(self.mesh.shape[0] * self.mesh.shape[1])
+        return super().further_work() + _OF_CELLS * cells * steps
 
     def _grow(self, position: Array) -> None:
         pressure = self._excess()

@@ -15,7 +15,8 @@ from loadflow.journal.film.film import DiscreteFilm
 _STEPS_OF_CELLS = 4e4  # Newton steps times cells, for each step that one solution may take
 _LEAST = 3  # steps on any cells, in multiples of those that one solution may take
 # time of a step over that in a rigid bore: of a shell that gives way locally, of one that gives way
-# all over, for each column of its linear system, and of asperities on either
+# all over, for each column of its linear system, and of asperities on either; what such a shell
+# takes where asperities press it, or where it is much softer than its film, counts beside
 _GIVES, _SPREADS, _TOUCHES = 1.5, 2.0, 4.0
 
 
@@ -65,6 +66,8 @@ class Effort:
     def take(self, film: DiscreteFilm, steps: int) -> None:
         """Note Newton steps of a film."""
         self.left -= steps * _cost(film)
+        if isinstance(film, ElasticFilm):
+            self.left -= film.further_work()
         self.spent += steps
 
     def steps(self, film: DiscreteFilm) -> int:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.gap import KEPT
 from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
@@ -30,6 +31,11 @@ _STEPS, _STEPS_EACH = 16, 25  # Newton steps of each, and of all in multiples of
 _STRIDE = 0.25  # first share of the way from the load at the start to the one that is wanted
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
 _STEPS_SHORT = 14  # Newton steps of each
+_SLOWER = 0.01  # share of the speed that is tried next where none is found beside the standing one
+_SLOWEST, _LEAST_GROWTH = (
+    1e-8,
+    1.02,
+)  # share of it, and growth in a step, below which it is given up
 _BUDGET = 10  # of all, in multiples of those of a solution
 _EASED = (0.9, 0.5, 0.1)  # of the way to the first position, at which a lighter film is sought
 _FEW = 7  # Newton steps below which the next of these steps is twice as long
@@ -246,6 +252,47 @@ def _eased(
         if state.converged and math.hypot(*state.linear.load[free]) <= wanted:
             break
     return replace(state, iterations=spent)
+
+
+def stands(film: DiscreteFilm) -> bool:
+    """Whether its shaft stands on asperities before it turns, where that is quickly found."""
+    rough = film.contact is not None and film.speed != 0.0 and not film.gap.pads.size
+    return rough and not (isinstance(film, ElasticFilm) and film.compliance.spreads)
+
+
+def solve_by_speed(
+    film: DiscreteFilm,
+    force: Array,
+    standing: Solution,
+    speed: float,
+    tolerance: float,
+    max_iterations: int,
+    effort: Effort,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution | None:
+    """As `solve_equilibrium` at a `speed`, rad/s, from the `standing` shaft, which comes up to it.
+
+    Asperities alone carry a load at one place, as they press the harder the nearer they are, and
+    nearer than the law of contact allows the shaft cannot come: what carries it at all speeds
+    between is a path that does not end before. None: not found this way.
+    """
+    state, done, growth, at, spent = standing, 0.0, 1.0 / _SLOWER, 1.0, 0
+    while state.converged and not (growth < _LEAST_GROWTH or at < _SLOWEST or effort.over):
+        film.set_speed(at * speed)
+        start = (state.u, state.position)
+        trial = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=free)
+        effort.take(film, trial.iterations)
+        spent += trial.iterations
+        if trial.converged and at == 1.0:
+            return replace(trial, iterations=spent)
+        if trial.converged:
+            state, done = trial, at
+            growth = growth**2 if trial.iterations < _STEPS_SHORT else growth
+        elif done:
+            growth = growth**0.4
+        at = min(1.0, done * growth) if done else _SLOWER * at
+    film.set_speed(speed)
+    return None
 
 
 def solve_by_approach(

@@ -118,6 +118,8 @@ def _unsolved(
     if solution.given_up:
         reached += f", all that a search may take ({MORE_STEPS})"
     found = f"{what}; {reached}, at ε = {math.hypot(*position[:2]):.6g}"
+    if solution.unheld:
+        return f"{found}: a film holds no pad that faces the load, it turns each flat, {place}"
     if solution.lost.size:
         x, y = cast("ShapedGap", gap).pivots[solution.lost[0] - gap.shaft]
         return (

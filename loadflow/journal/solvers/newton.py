@@ -43,6 +43,7 @@ class Solution:
     `rounding` is the residual that rounding allows, where that was asked; `estimate` the position
     by the closed form, which tells whether the next load is near; `free` are the degrees of freedom
     in balance; `lost` the pads with whose film the load jumps there from too little to too much.
+    `unheld` says that no film holds any pad that faces the load, wherever the shaft may be.
     `given_up` says that the search had taken all that it may, before it came to an end.
     """
 
@@ -56,6 +57,7 @@ class Solution:
     free: slice | NDArray[np.int64] = field(default_factory=lambda: EVERY)
     rounding: float = 0.0
     lost: NDArray[np.int64] = field(default_factory=lambda: np.arange(0))
+    unheld: bool = False
     given_up: bool = False
 
 

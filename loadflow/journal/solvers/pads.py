@@ -115,7 +115,7 @@ def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) ->
     return replace(start, u=u, position=position)
 
 
-def _balanced(
+def balanced_film(
     film: DiscreteFilm,
     gap: ShapedGap,
     start: Solution,
@@ -186,7 +186,7 @@ def film_on_pads(
         if pads.size:
             first = solve_equilibrium(film, nothing, first.u, position, *limits, free=pads)
     if not first.converged:
-        first, pads = _balanced(film, gap, replace(first, position=position), may_hold, *limits)
+        first, pads = balanced_film(film, gap, replace(first, position=position), may_hold, *limits)
         if first.converged and pads.size:
             where = (first.u, first.position)
             first = solve_equilibrium(film, nothing, *where, *limits, free=pads)
@@ -238,7 +238,7 @@ def solve_with_pads(
 
     def balanced(start: Solution) -> tuple[Solution, Rows]:
         some = gap.pads[_over_pivots(gap, start.position) < reach]
-        found, held = _balanced(film, gap, start, some, tolerance, max_iterations)
+        found, held = balanced_film(film, gap, start, some, tolerance, max_iterations)
         effort.take(film, found.iterations)
         return found, held
 
@@ -323,7 +323,7 @@ def _with_lost(
         if math.hypot(*way[: gap.shaft]) < _BESIDE:
             return replace(ended, u=near.u, position=near.position, lost=np.setxor1d(held, others))
         middle = replace(near, position=near.position + 0.5 * way)
-        state, pads = _balanced(film, gap, middle, every, tolerance, max_iterations)
+        state, pads = balanced_film(film, gap, middle, every, tolerance, max_iterations)
         effort.take(film, state.iterations)
         if not state.converged:
             return ended

@@ -32,13 +32,16 @@ from loadflow.journal.solvers.load_stepping import (
     APART,
     has_touched,
     solve_by_approach,
+    solve_by_speed,
     solve_elastic_in_steps,
     solve_from_held,
+    stands,
 )
 from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
-from loadflow.journal.solvers.pads import film_on_pads, solve_with_pads, unload_other_pads
+from loadflow.journal.solvers.pad_search import search_on_pads
+from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads
 from loadflow.journal.solvers.path import solve_beyond_fold
 from loadflow.numerics.convergence import Limits
 
@@ -216,6 +219,10 @@ class Statics:
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
+        if in_steps and not (solution.converged or effort.over) and stands(film):
+            standing = self.solve(index, load, 0.0, None, control, effort=effort)
+            turning = film, force, standing, omega, *limits, effort, self.shaft
+            solution = solve_by_speed(*turning) or solution
         if in_steps and not (solution.converged or effort.over):
             solution = self._in_steps(force, estimate, pads, limits, effort)
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
@@ -424,13 +431,7 @@ class Statics:
             return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
-            on_pads = solve_with_pads(film, self._shaped, force, estimate, shaft, *limits, effort)
-            if on_pads.converged:
-                return on_pads
-            self._on_pads(pads)
-            held = solve_from_held(*given)
-            told = held.converged or has_touched(film, held) or not on_pads.lost.size
-            return held if told else on_pads
+            return search_on_pads(film, self._shaped, force, estimate, shaft, pads, *limits, effort)
         if self.gap.pads.size or not self._has_path:
             return solve_from_held(*given)
         return solve_from_held(*given, _LONG)  # a path goes on
