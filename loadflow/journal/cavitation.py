@@ -34,6 +34,9 @@ Array = NDArray[np.float64]
 # rows of the state of the cells
 P, DP, FILL, DFILL, SLACK, DSLACK, LOAD, DLOAD = range(8)
 
+FILLS = 0.1
+"""Pressure over its scale that a cell may take in the Newton step in which it fills."""
+
 Cells = Callable[[Any, float, int, Any, Any], None]
 """``cells(numbers, scale, count, u, state)``: write the `count` columns of each row of `state`.
 
@@ -81,6 +84,19 @@ class CavitationLaw:
     def floor(self) -> float:
         """Lowest pressure that may be given anywhere, Pa, absolute."""
         return -math.inf
+
+    @property
+    def kink(self) -> float:
+        """Pressure, Pa, below which the unknown of a cell is its fill alone; -inf: no such kink."""
+        return self.floor if self.keeps_fill and not self.smooth else -math.inf
+
+    def filling(self, scale: float) -> tuple[float, float]:
+        """The kink, and the most that a cell below it may become in one Newton step, Pa.
+
+        What is above the kink of a cell that fills is oil that has no room, and no pressure: that
+        would be a thousand times too much.
+        """
+        return self.kink, self.kink + FILLS * scale
 
     @property
     def numbers(self) -> tuple[float, ...]:

@@ -31,7 +31,7 @@ def wear_section(bearings: dict[str, xr.Dataset]) -> Section:
         worn.append(
             [
                 name,
-                f"{data.attrs['cycles']}",
+                f"{np.unique(data['case' if 'case' in data else 'cycle']).size}",
                 four_digits(1e6 * depth.max()),
                 four_digits(1e9 * data.attrs["volume"]),
                 f"{spread[0]:.3g} … {spread[-1]:.3g}" if spread.size else "-",
@@ -53,7 +53,7 @@ def wear_section(bearings: dict[str, xr.Dataset]) -> Section:
         heads = ["case", "times in the life", *(words for _, words, _ in _EACH)]
         tables.append(Table("Each of them in the new and in the worn bore", heads, before_after))
     text = (
-        "The contour is carried from start to start, and the film solved anew in the worn bore. "
+        "The contour is carried from cycle to cycle, and the film solved anew in the worn bore. "
         "Coefficients of wear differ by 2 … 5 from batch to batch: shapes can be trusted more than "
         "depths."
     )

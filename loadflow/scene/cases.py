@@ -47,7 +47,7 @@ class Case:
         Index of the turbulence seed, or of the variant of a wind without turbulence.
     weight : float
         Share of the lifetime, if its design load case takes the whole of it; how several load
-        cases share it is told by `loadflow.studies.lifetime_shares.lifetime_shares`.
+        cases share it is told by `loadflow.scene.lifetime_shares.lifetime_shares`.
     file : str
         File the series is read from; empty if it is simulated.
     entry : str

@@ -419,8 +419,10 @@ def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
 
 def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
     counted = set(filter(stands_or_starts, scene.lifetime.per_year)) - {*scene.wear.counts}
-    if "journal.wear" not in scene.results or not counted:
-        yield "years", "no wear follows from lifetime.per_year"
+    given = scene.loads.source == "files"  # whose load cases are known when they are read
+    produces = given or not all(map(stands_or_starts, scene.loads.dlcs))
+    if "journal.wear" not in scene.results or not (counted or produces):
+        yield "years", "all that wears has its number in wear.events or wear.counts"
 
 
 def _of_dynamics(scene: Scene) -> Iterator[tuple[str, str]]:

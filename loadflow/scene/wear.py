@@ -20,15 +20,16 @@ Count = Annotated[float, Field(ge=0, le=MOST)]
 
 
 class Wear(Section, BaseModel):
-    """Wear of the journal bearings by starts, stops and faults, for the result ``journal.wear``.
+    """Wear of the journal bearings over their life, for the result ``journal.wear``.
 
     The result is computed only where it is asked for by name, with a ``law``: Archard's
     ``{coefficient = …}``, m²/N, or Fleischer's ``{energy_density = …}``, J/m³. Every load case that
     starts, stops or stands wears the bore in what of its film is in contact while it turns:
     ``events`` times in the life, or as often as ``counts`` says of its design load case, shared by
     its wind speeds as they blow, and evenly by its variants (3.1a, 3.1b). 20,000 starts are what a
-    test rig of main bearings was given for a life. Each is followed in at most ``samples`` steps,
-    with the motion of ``[journal]``.
+    test rig of main bearings was given for a life. Other load cases wear it with their share of
+    the lifetime, by their spells of contact, where films are followed in motion. Each load case is
+    followed in at most ``samples`` steps, with the motion and the rung of ``[journal]``.
 
     ``running_in``, ``around``, ``across``, ``step`` and ``renewal`` are those of
     `loadflow.journal.Wear`.

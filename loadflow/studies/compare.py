@@ -63,7 +63,7 @@ from loadflow.studies.compare_words import (
 from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
-from loadflow.studies.wear_bands import with_error, with_production
+from loadflow.studies.wear_bands import with_error
 from loadflow.verdict import Verdict, from_dataset
 
 _OF_CONES = "at rest and at one temperature, which the error by models does not count"
@@ -207,9 +207,7 @@ def _of_journal(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     yield from _oil(run, table, run.tables.get("thrust"))
     yield "whirl", whirl(run, table, groups)
     yield "mixed_time", mixed_time(run, table, share, groups)
-    bores = _bores(run)
-    worn = with_production(run, table, bores, wear(run.scene, bores, table, groups))
-    yield "wear", with_error(run, worn)
+    yield "wear", with_error(run, wear(run.scene, _bores(run), table, groups))
     yield from _lost(run, table, table["lost_power"], "")
 
 

@@ -61,16 +61,22 @@ def wear(
     law = scene.wear.law
     note = f"{law}; {events(scene, table)}; limit: a tenth of the radial clearance, assumed"
     if depth == 0:
-        note += "; no start, stop or fault of this run touches while it turns"
+        note += "; no load case of this run touches while it turns"
         return Number(0.0, "µm", limit=1e6 * limit, holds=True, place=place, note=note)
-    note += f"; {1e9 * depth / float(data['count'].sum()):.3g} nm each on average"
-    energy = (data["contact_energy"] * data["count"]).mean("renewal")
+    energy = (data["contact_energy"] * data["count"]).mean("renewal").values
+    produces, count = data["production"].values.astype(bool), data["count"].values
+    running = float(energy[produces].sum() / energy.sum())
+    if running < 1:
+        each = 1e9 * depth * (1 - running) / float(count[~produces].sum())
+        note += f"; {each:.3g} nm each on average"
+    note += f"; {percent(running)} of the friction energy that wears is of power production"
     rubbed = np.zeros(table.sizes["case"])
-    rubbed[[*map(table["case"].values.tolist().index, data["cycle"].values.tolist())]] = energy
+    cases = table["case"].values.tolist()
+    np.add.at(rubbed, [cases.index(name) for name in data["case"].values.tolist()], energy)
     low, high = interval(groups, lambda some: 1e6 * depth * rubbed[some].sum() / rubbed.sum())
     return Number(
         1e6 * depth, "µm", low, high, limit=1e6 * limit, holds=bool(depth <= limit),
-        case=str(data["cycle"].values[int(np.argmax(energy.values))]), place=place, note=note,
+        case=cases[int(np.argmax(rubbed))], place=place, note=note,
     )  # fmt: skip
 
 

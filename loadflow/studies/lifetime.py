@@ -25,8 +25,8 @@ from loadflow.reduction import (
     tail_of_peaks,
 )
 from loadflow.reduction.quasistatic import class_edges
+from loadflow.scene.lifetime_shares import YEAR, lifetime_shares, without_share
 from loadflow.studies.bearing_series import BearingSeries
-from loadflow.studies.lifetime_shares import YEAR, lifetime_shares, without_share
 
 COMPONENTS = ("Fz", "Fy", "Fx")
 """Forces of the shaft's frame of which ranges are counted, which have no sign."""
@@ -48,7 +48,7 @@ class LifetimeOptions:
         Wöhler exponents.
     weights : {"rayleigh", "given"}
         Shares from the distribution of wind speeds (2.2, 2.3), see
-        `loadflow.studies.lifetime_shares.lifetime_shares`, or those that the cube states.
+        `loadflow.scene.lifetime_shares.lifetime_shares`, or those that the cube states.
     wind_class : str
         I, II or III.
     weibull_shape : float

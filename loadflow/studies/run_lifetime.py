@@ -7,15 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from loadflow.errors import InputError
-from loadflow.quantities import HOURS_PER_YEAR
-from loadflow.scene.cases import wind_class
+from loadflow.scene.lifetime_shares import seconds_per_year, shares_in
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label
 from loadflow.stages.rolling import hours_together, system_hours
-from loadflow.studies.lifetime_shares import IDLING, PRODUCTION, lifetime_shares, of_load_cases
-from loadflow.wind import iec
-from loadflow.wind.cases import by_load_case
 
 Tables = Mapping[str, xr.Dataset]
 
@@ -68,24 +63,8 @@ def _rotor_energy(scene: Scene, table: xr.Dataset, share: xr.DataArray) -> dict[
 
 def case_shares(scene: Scene, table: xr.Dataset) -> np.ndarray | None:
     """Share of the lifetime of each case, of 1 in all; None where none has one."""
-    if scene.loads.weights == "given" and scene.loads.source == "files":
-        given = table["weight"].values.astype(float)
-        return given / given.sum() if given.sum() > 0 else None
-    per_year = by_load_case(scene.lifetime.per_year, table["dlc"].values.tolist())
-    lengths = table["length"].values if per_year else np.ones(table.sizes["case"])
-    try:
-        return lifetime_shares(
-            table["dlc"].values.tolist(),
-            table["wind_speed"].values.tolist(),
-            lengths.tolist(),
-            wind_class=wind_class(scene),
-            operating=_operating(scene),
-            per_year=per_year,
-        )
-    except InputError:
-        if per_year:
-            raise
-        return None
+    given = (table[name].values.tolist() for name in ("dlc", "wind_speed", "length", "weight"))
+    return shares_in(scene, *given)
 
 
 def known_shares(tables: Tables, table: xr.Dataset) -> np.ndarray | None:
@@ -109,13 +88,6 @@ def known_shares(tables: Tables, table: xr.Dataset) -> np.ndarray | None:
         if share.sum() > 0:
             return np.asarray(share / share.sum())
     return None
-
-
-def _operating(scene: Scene) -> tuple[float, float]:
-    from loadflow.turbines import load_turbine
-
-    machine = load_turbine(scene.turbine.name)
-    return machine.cut_in, machine.cut_out
 
 
 def _lives(scene: Scene, table: xr.Dataset, share: np.ndarray) -> dict[str, xr.DataArray]:
@@ -183,11 +155,5 @@ def energy_per_year(
     share : ndarray, shape (case,)
         Share of the lifetime of each case.
     """
-    seconds = np.full(table.sizes["case"], HOURS_PER_YEAR * 3600)
-    dlcs = set(table["dlc"].values.tolist())
-    by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
-    if by_wind and of_load_cases(dlcs, PRODUCTION) and not of_load_cases(dlcs, IDLING):
-        below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
-        produces = ~np.isin(table["dlc"].values, [*by_load_case(scene.lifetime.per_year, dlcs)])
-        seconds[produces] *= float(below[1] - below[0])
+    seconds = seconds_per_year(scene, table["dlc"].values.tolist())
     return np.asarray((power * xr.DataArray(share * seconds, dims="case")).sum("case").values)

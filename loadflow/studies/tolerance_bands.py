@@ -80,7 +80,7 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
     Judged
         Its `change` names tolerances that break a limit by themselves.
     """
-    rubs = rubbing_of(run.scene, run.folder, one.numbers["wear"])
+    rubs = rubbing_of(run, one.numbers["wear"])
     built = Built(_bearings(run), _friction(run), _in_bores(run.scene, spectrum), rubs)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}

@@ -3,32 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from loadflow.cube.hdf5 import read_variables
 from loadflow.errors import SolverError
 from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.wear import Cycle
-from loadflow.quantities import HOURS_PER_YEAR, percent
 from loadflow.scene.journal import Journal
-from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
-from loadflow.stages.turning import runs_throughout, turning
-from loadflow.stages.wear import touching_cycle
-from loadflow.studies.compare_numbers import Finished, error_of, shares_of
+from loadflow.stages.wear import cycles_of
+from loadflow.studies.compare_numbers import Finished, error_of
 from loadflow.studies.compare_result import Number
 
 BATCHES = 5.0
 """Factor by which published coefficients of wear of one pair of materials differ from batch to
 batch, at most of 2 … 5 (docs/mixed-friction.md)."""
 
-_FILM = ("time", "speed", "contact_share", "temperature", "tilt")
+_FILM = ("time", "speed", "contact_share", "contact_power", "temperature", "tilt")
 _SHAFT = ("force", "tilt", "curvature")
 
 
@@ -58,7 +52,7 @@ class Rubbing:
         held, cycle = options, self.cycle
         if options.heat is not None:
             held = options.at_temperature(options.heat.inlet_temperature + self.warmth)
-        film, given = replace(held.film_model, rung="grid"), (cycle.force, cycle.speed)
+        film, given = held.film_model, (cycle.force, cycle.speed)
         lines = {"tilt": cycle.tilt, "bend": cycle.bend}
         lying: dict[str, Any] = {key: line for key, line in lines.items() if line is not None}
         bore = options.geometry
@@ -79,64 +73,23 @@ class Rubbing:
         return replace(self, cycle=replace(self.cycle, tilt=lies + more))
 
 
-def rubbing_of(scene: Scene, folder: Path, wear: Number) -> Rubbing | None:
-    """What rubs in the load case that a wear names, of the run in a folder; None without wear."""
+def rubbing_of(run: Finished, wear: Number) -> Rubbing | None:
+    """What rubs in the load case of a run that a wear names; None without wear."""
     if not wear.case or not wear.value > 0:
         return None
+    scene, folder = run.scene, run.folder
+    dlc = str(run.tables["journal"]["dlc"].sel(case=wear.case).item())
     options = scene.journal.at(wear.place)
     film = read_variables(folder / "journal" / f"{wear.case}.h5", _FILM, wear.place)
     loads = read_variables(folder / "loads" / f"{wear.case}.h5", ("time", "speed"))
     shaft = read_variables(folder / "shaft" / f"{wear.case}.h5", _SHAFT).sel(bearing=wear.place)
-    cycle = touching_cycle(scene, options, film, loads, shaft)
-    if cycle is None:
+    cycles = cycles_of(dlc, scene, options, film, loads, shaft)
+    if not cycles:
         return None
     warmth = 0.0
     if options.heat is not None and "temperature" in film:
         warmth = float(film["temperature"].median()) - options.heat.inlet_temperature
-    return Rubbing(wear.place, cycle, warmth)
-
-
-def with_production(
-    run: Finished, table: xr.Dataset, bores: Mapping[str, xr.Dataset], wear: Number
-) -> Number:
-    """Wear that says what asperities rub while the shaft runs, beside starts, stops and faults.
-
-    By the law their friction energy counts, wherever in the bore it is left, so that it is told as
-    a share of what starts, stops and faults rub, and does not add to the depth.
-
-    Parameters
-    ----------
-    run : Finished
-        The candidate; its films lie in its folder.
-    table : xarray.Dataset
-        Films of the run over ``case``.
-    bores : mapping
-        Worn bores by bearing.
-    wear : Number
-        Of ``journal.wear``.
-    """
-    runs = runs_throughout(table)
-    if wear.place not in bores or not runs.any():
-        return wear
-    life = run.scene.lifetime.years * HOURS_PER_YEAR * 3600.0
-    names = ("contact_power", "speed", "weight")
-    rubbed = 0.0
-    for case, share in zip(table["case"].values[runs], shares_of(run, table)[runs]):
-        film = read_variables(run.folder / "journal" / f"{case}.h5", names, wear.place)
-        turns = turning(film) & np.isfinite(film["contact_power"].values)
-        weight = film["weight"].values
-        power = float((film["contact_power"].values * weight)[turns].sum() / weight.sum())
-        rubbed += power * float(share) * life
-    data = bores[wear.place]
-    starts = 0.0
-    if data.attrs["cycles"]:
-        starts = float((data["contact_energy"] * data["count"]).mean("renewal").sum())
-    told = "power production rubs nothing"
-    if rubbed > 0 and starts > 0:
-        told = f"power production rubs {percent(rubbed / starts)} of that beside it, not in it"
-    elif rubbed > 0:
-        told = f"power production rubs with {1e-6 * rubbed:.3g} MJ in the life, not in it"
-    return replace(wear, note="; ".join(filter(None, (wear.note, told))))
+    return Rubbing(wear.place, cycles[0], warmth)
 
 
 def with_error(run: Finished, wear: Number) -> Number:
@@ -150,7 +103,7 @@ def with_error(run: Finished, wear: Number) -> Number:
         return wear
     film, rubs = error_of(run, "journal.film", "minimum film"), None
     if film < 1:
-        rubs = rubbing_of(run.scene, run.folder, wear)
+        rubs = rubbing_of(run, wear)
     more = math.nan
     if rubs is not None:
         options = run.scene.journal.at(rubs.place)

@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 
 from loadflow.journal.wear import Cycle
-from loadflow.quantities import percent
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
@@ -21,7 +20,7 @@ from loadflow.studies.compare_result import Number
 from loadflow.studies.deviations import Built, tolerances_of, with_places
 from loadflow.studies.grown_films import fast_journal
 from loadflow.studies.tolerance_bands import Known, _as_share, _banded, _in_bores, cheap_numbers
-from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error, with_production
+from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
 MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}
@@ -331,46 +330,3 @@ def test_of_samples_the_hardest_and_those_that_last_are_kept():
     assert {films.thin, films.hard, 0} <= set(kept.places.tolist())
     assert kept.places.size < 8
     assert float(kept.films.samples["weight"].sum()) == pytest.approx(1.0)
-
-
-def test_wear_says_what_power_production_rubs_beside_starts(tmp_path):
-    """By its friction energy: 2 W while it turns, a quarter of the life, over 1.5 GJ of starts."""
-    names = ["runs", "start"]
-    dlcs = ("case", ["1.1", "3.1"])
-    table = xr.Dataset(coords={"case": names, "dlc": dlcs})
-    share = xr.DataArray([0.25, 0.75], {"case": names}, ["case"])
-    bore = xr.Dataset(
-        {
-            "contact_energy": (("renewal", "cycle"), [[2e5], [1e5]]),
-            "count": ("cycle", [1e4]),
-        },
-        {"cycle": ["start"]},
-        {"cycles": 1},
-    )
-    run = SimpleNamespace(
-        tables={"lifetime": xr.Dataset({"share": share})},
-        folder=tmp_path,
-        scene=SimpleNamespace(lifetime=SimpleNamespace(years=20.0)),
-    )
-    worn = Number(2.0, "µm", place="N", case="start", note="law")
-    (tmp_path / "journal").mkdir()
-
-    def told(power, bore):
-        film = xr.Dataset(
-            {
-                "contact_power": ("sample", [power, power, np.nan]),
-                "speed": ("sample", [1.2, 1.2, 0.0]),
-                "weight": ("sample", [1.0, 1.0, 2.0]),
-            }
-        )
-        tree = xr.DataTree.from_dict({"N": film})
-        tree.to_netcdf(tmp_path / "journal" / "runs.h5", engine="h5netcdf")
-        return with_production(run, table, {"N": bore}, worn).note
-
-    assert told(0.0, bore) == "law; power production rubs nothing"
-    beside = 2.0 * 0.5 * 0.25 * 20.0 * 8766.0 * 3600.0 / (1.5e5 * 1e4)
-    said = f"law; power production rubs {percent(beside)} of that beside it, not in it"
-    assert told(2.0, bore) == said
-    untouched = xr.Dataset(attrs={"cycles": 0})
-    assert "rubs with 158 MJ in the life" in told(2.0, untouched)
-    assert with_production(run, table, {}, replace(worn, place="")).note == "law"

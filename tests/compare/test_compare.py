@@ -432,6 +432,8 @@ def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_star
             "depth_of_bore": (("angle", "z"), [[0.0], [20e-6]]),
             "contact_energy": (("renewal", "cycle"), [[4.0, 1.0], [2.0, 1.0]]),
             "count": ("cycle", [100.0, 100.0]),
+            "case": ("cycle", ["a", "b"]),
+            "production": ("cycle", [False, False]),
         },
         {"cycle": ["a", "b"]},
         {"cycles": 2},
@@ -443,6 +445,12 @@ def test_wear_is_that_of_the_followed_contour_with_an_interval_by_what_each_star
     assert "100 nm each on average" in found.note
     # a alone rubs 300 of 400 J, twice of it are 600, twice of b 200
     assert (found.low, found.high) == (pytest.approx(10.0), pytest.approx(30.0))
+    assert "0 % of the friction energy that wears is of power production" in found.note
+    spells = bore.assign(case=("cycle", ["smooth"] * 2), production=("cycle", [True] * 2))
+    running = wear(scene, {"N": spells}, table, groups)
+    assert (running.value, running.case) == (found.value, "smooth")
+    assert "on average" not in running.note
+    assert "100 % of the friction energy" in running.note
     untouched = wear(scene, {"N": xr.Dataset(attrs={"cycles": 0})}, table, groups)
     assert (untouched.value, untouched.holds) == (0.0, True)
     lawless = make_scene({"name": "none", "journal": {"bearings": ["N"]}})

@@ -59,6 +59,19 @@ def test_pockets_lift_at_rest_and_turn_into_a_hybrid_bearing(restrictor, law, sp
     np.testing.assert_allclose(field.groove_pressure, state.groove_pressure, rtol=1e-7)
 
 
+@pytest.mark.parametrize(
+    ("restrictor", "pressure", "load"), [(None, 3e5, 5e4), (RESTRICTORS[0], 5e6, 8e4)]
+)
+def test_a_shaft_waits_for_the_rupture_of_oil_that_is_conserved(restrictor, pressure, load):
+    """A shaft that follows each wrong rupture takes up to 39 Newton steps, and 27 on average."""
+    around = np.linspace(0.0, 2 * np.pi, 12, endpoint=False)
+    force = load * np.stack([np.cos(around), np.sin(around)], axis=1)
+    film = options(pockets(restrictor, pressure), MassConserving(), grading="uniform")
+    state = BEARING.equilibrium(force, 60.0, **film)
+    assert state.converged.all()
+    assert state.iterations.max() < 20
+
+
 @pytest.mark.parametrize("restrictor", RESTRICTORS, ids=lambda r: type(r).__name__)
 def test_flow_and_pressure_of_a_pocket_fit_its_restrictor(restrictor):
     state = BEARING.equilibrium((8e3, 1e3), 20.0, **options(pockets(restrictor)))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import solve_ivp
 
 import loadflow as lf
@@ -22,7 +23,10 @@ from loadflow.journal import (
     wear_bearing,
 )
 from loadflow.journal.worn_surface import Group, Surface
+from loadflow.scene.cases import list_cases
+from loadflow.scene.lifetime_shares import YEAR
 from loadflow.scene.scene import make_scene
+from loadflow.stages import wear as stage
 from loadflow.tribology import Archard, AsperityContact, Fleischer, RunningIn, ShaftImprint
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
@@ -288,3 +292,72 @@ def test_a_scene_wears_its_bearings_over_a_lifetime_of_starts(tmp_path):
 def test_a_scene_that_cannot_wear_is_refused(sections, named):
     with pytest.raises(InputError, match=named):
         changed(**sections)
+
+
+def production(rubs, power, step=0.1):
+    """Film, loads and shaft of a load case that touches where it `rubs`."""
+    count = len(rubs)
+    time, ones = step * np.arange(count), np.ones(count)
+    film = xr.Dataset(
+        {
+            "time": ("sample", time),
+            "speed": ("sample", 0.5 * ones),
+            "contact_share": ("sample", 0.5 * np.array(rubs)),
+            "contact_power": ("sample", np.array(power, dtype=float)),
+        }
+    )
+    loads = xr.Dataset({"speed": ("time", 0.5 * ones)}, {"time": time})
+    down = np.zeros((1, 3, count))
+    down[:, 2] = -2e6
+    shaft = {"force": (("bearing", "axis", "time"), down)}
+    return film, loads, xr.Dataset(shaft, {"bearing": ["N"], "time": time})
+
+
+def test_spells_of_contact_that_rub_most_stand_for_all_of_a_load_case():
+    scene = changed(wear={"samples": 10})
+    rubs = np.isin(np.arange(40), [5, 6, 20, 21, 22, 30])
+    power = np.where(rubs, 1.0, 0.0) + 2.0 * (np.arange(40) == 21)
+    film, loads, shaft = production(rubs, power)
+    asked = scene.journal.at("N"), film, loads, shaft.sel(bearing="N")
+    first, second = stage.cycles_of("1.2", scene, *asked)
+    np.testing.assert_allclose(first.time, 0.1 * np.arange(19, 24))  # the hardest, 5 J
+    np.testing.assert_allclose(second.time, 0.1 * np.arange(4, 8))  # 2 J; of 1 J there is no room
+    assert first.count == second.count == pytest.approx(8.0 / 7.0)
+    assert first.in_motion
+    (whole,) = stage.cycles_of("3.1", scene, *asked)  # a start is one from first to last
+    assert whole.time[0] == pytest.approx(0.4)
+    assert whole.time[-1] > 3.0
+    still = changed(journal={"motion": "quasi-static"})
+    assert stage.cycles_of("1.2", still, still.journal.at("N"), *asked[1:]) == []
+
+
+@pytest.mark.parametrize("rung", ["reduced", "grid"])
+def test_power_production_wears_with_its_share_of_the_lifetime(rung, monkeypatch):
+    """On the rung of the film: what touches in 1.2 comes as often as its series fits the life."""
+    asked = []
+    monkeypatch.setattr(
+        stage, "wear_bearing", lambda *given: asked.append(given) or wear_bearing(*given)
+    )
+    scene = changed(
+        loads={"dlc": ["1.2", "3.1"], "wind_speeds": [16.0], "seeds": 1, "duration": 4.0},
+        wear={"law": {"coefficient": 1e-19}, "counts": {"3.1": 0.0}},
+        journal={"rung": rung},
+        lifetime={"per_year": {"3.1": 100.0}, "years": 20.0},
+    )
+    cases = list_cases(scene)
+    rubs = np.isin(np.arange(40), range(5, 9))
+    film, loads, shaft = production(rubs, np.where(rubs, 1.0, 0.0))
+    film["speed"][:] = loads["speed"][:] = 0.01  # so slow that it does touch
+    tree = xr.DataTree.from_dict({"N": film})
+    found = stage.wear(
+        scene,
+        cases,
+        {case.name: {"journal": tree, "loads": loads, "shaft": shaft} for case in cases},
+    )["N"].to_dataset()
+    assert asked[0][2].rung == rung
+    assert found["production"].values.tolist() == [True]
+    assert found["case"].values.tolist() == [cases[0].name]
+    share = 1.0 - 100.0 * 4.0 / YEAR
+    operating = float(found["count"].item()) * 4.0 / (20.0 * YEAR * share)
+    assert 0.8 < operating < 1.0  # the wind is between cut-in and cut-out
+    assert found["depth_of_bore"].max() > 0

@@ -274,8 +274,11 @@ def carried_by(slope, around, across, dz, order, columns, out):
 
 
 @_loop
-def correct(u, columns, weights, order):
-    """Subtract Σ weights · columns from `u`; returns the largest change."""
+def correct(u, columns, weights, order, kink, most):
+    """Subtract Σ weights · columns from `u`; returns the largest change.
+
+    What has been below a `kink` of the law becomes `most` at most.
+    """
     nx, nz = u.shape
     largest = 0.0
     for i in range(nx):
@@ -285,6 +288,9 @@ def correct(u, columns, weights, order):
             for j in range(weights.size):
                 if weights[j] != 0.0:
                     change += weights[j] * columns[j, row]
+            fills = u[i, k] < kink
             u[i, k] -= change
+            if fills and u[i, k] > most:
+                u[i, k] = most
             largest = max(largest, abs(change))
     return largest

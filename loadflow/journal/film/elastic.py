@@ -122,10 +122,10 @@ class ElasticFilm(DiscreteFilm):
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
         least = self.gap.least_after(start)
-        share = super().step_share(u, columns, weights, way)
+        share, filling = super().step_share(u, columns, weights, way), self.law.filling(self.scale)
         while share > _SMALLEST:
             trial = u.copy()
-            kernel.correct(trial, columns, share * weights, self.mesh.order)
+            kernel.correct(trial, columns, share * weights, self.mesh.order, *filling)
             self._apply_law(trial)
             place = start + share * (target - start)
             self._grow(place)

@@ -86,8 +86,7 @@ class DiscreteFilm:
         self.set_speed(0.0)
 
         nx, nz = mesh.shape
-        n = nx * nz
-        self.ab = band_kernel.band_storage(n, mesh.bandwidth)
+        self.ab = band_kernel.band_storage(nx * nz, mesh.bandwidth)
         self._still = np.zeros((len(gap.coefs), nx, gap.across.shape[1]))  # growth at rest
         self.state = np.empty((8, nx, nz))
         self.elastic = False  # whether the gap follows the pressure
@@ -259,6 +258,7 @@ class DiscreteFilm:
             self.state, fields, moves, modes[0], gap.across, self.slope, mesh.area, gap.open_share,
             mesh.order, self.fixed, columns,
         )  # fmt: skip
+        lacks = float(np.abs(columns[0]).max())
         flows = [self.pockets.flows(field)[free] for field in fields] if free.size else []
         for column, number in zip(columns[len(fields) :], free):
             kernel.gather(1.0 * (self.pockets.numbers == number), mesh.order, column)
@@ -291,7 +291,7 @@ class DiscreteFilm:
         if self.contact is not None:
             touch = self._touched(self.contact, position)
             load, stiffness = load + touch.load, stiffness + touch.stiffness
-        return Linear(load, stiffness, damping, columns)
+        return Linear(load, stiffness, damping, columns, lacks)
 
     def _assemble(self, mass: Array, rate: float) -> None:
         """Write the Newton matrix at the state last placed into the band."""
@@ -372,7 +372,8 @@ class DiscreteFilm:
 
     def correct(self, u: Array, columns: Array, weights: Array) -> float:
         """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
-        return kernel.correct(u, columns, weights, self.mesh.order) / self.scale
+        filling = self.law.filling(self.scale)
+        return kernel.correct(u, columns, weights, self.mesh.order, *filling) / self.scale
 
     def relax(self, share: float = 1.0) -> None:
         """Undo what pressure has deformed; the shell then has a `share` of its compliance.
@@ -415,8 +416,7 @@ class DiscreteFilm:
 
     def liquid(self) -> Array:
         """Liquid in each cell (nx, nz) times the squeeze pressure, Pa s, at the last state."""
-        rows = self.gap.across.shape[1]
-        volume = self.gap.coef[kernel.HM, :-1, :rows] * self.mesh.area
+        volume = self.gap.coef[kernel.HM, :-1, : self.gap.across.shape[1]] * self.mesh.area
         return self.slope * self.state[FILL] * volume
 
     def stock(self) -> tuple[float, float]:

@@ -27,9 +27,12 @@ class Linear(NamedTuple):
         Derivatives of `load` by position (per clearance) and velocity (clearances per second).
     columns : array (l, n)
         Newton step of the unknowns, and their derivatives by what `DiscreteFilm.weights` lists.
+    lacks : float
+        Largest imbalance of a cell before the step, Pa.
     """
 
     load: Array
     stiffness: Array
     damping: Array
     columns: Array
+    lacks: float = 0.0

@@ -29,6 +29,8 @@ class Cylinder(NamedTuple):
         The law, its parameters, and the scale of pressure, Pa.
     face, cell, strength, polar, closed, cells, order, bandwidth
         The mesh.
+    filling : tuple of float
+        As of `CavitationLaw.filling`.
     fixed : array (nx, nz)
         Cells that are held.
     wedge, slope, edges
@@ -60,6 +62,7 @@ class Cylinder(NamedTuple):
     cells: tuple[Array, Array, Array]
     order: NDArray[np.int64]
     bandwidth: int
+    filling: tuple[float, float]
     fixed: NDArray[np.bool_]
     wedge: float
     slope: float
@@ -95,7 +98,8 @@ def as_cylinder(film: DiscreteFilm) -> Cylinder | None:
     known = cast("Cylinder | None", film.whole)
     if known is None:
         known = film.whole = _laid_out(film, gap)
-    return known._replace(scale=film.scale, wedge=film.wedge, flux=flux_of(film))
+    now = {"scale": film.scale, "filling": film.law.filling(film.scale), "wedge": film.wedge}
+    return known._replace(flux=flux_of(film), **now)
 
 
 def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:
@@ -115,6 +119,7 @@ def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:
         cells=mesh.cells,
         order=mesh.order,
         bandwidth=mesh.bandwidth,
+        filling=film.law.filling(film.scale),
         fixed=film.fixed,
         wedge=film.wedge,
         slope=film.slope,

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.journal.cavitation import FILL, LOAD
+from loadflow.journal.cavitation import FILL, FILLS, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import (
@@ -62,7 +62,6 @@ KEPT = 0.3  # share of the narrowest gap that a step of the shaft leaves
 ROOM = 1.0 / 2**20  # share of a step below which an elastic shell has no room for it
 MORE = 2  # Newton steps on factors that are there which cost less than one on new factors
 WAITS = 100.0  # flows that a point lacks, above which the shaft waits for a rupture with a kink
-FILLS = 0.1  # pressure over its scale that a point may take in the step in which it fills
 ALIKE = 0.1  # difference of two rates of which one goes with the factors of the other
 
 
@@ -151,8 +150,7 @@ def _shaft_step(film, work, load, size, step):
 def correct(film, work, step, size, share):
     """Unknowns after a share of a Newton step from `work.trial`.
 
-    What is above the kink of a point that fills is oil that has no room, and no pressure: that
-    would be a thousand times too much, and press a shell open.
+    What a point takes that fills is no pressure (`FILLS`), and would press a shell open.
     """
     block, kink = work.u.size, film.ring.kink
     for here in range(0, block, LANES):

@@ -119,7 +119,7 @@ def ring_of(film: DiscreteFilm, share: float) -> Ring:
         groove=np.zeros(count, dtype=bool), back=half,
         lobe=np.outer([1.0, 0.0, 0.0], np.ones(count)), shaped=False, order=film.mesh.order,
         law=film.law.address, numbers=np.array(film.law.numbers),
-        kink=film.law.floor if film.law.keeps_fill and not film.law.smooth else -np.inf,
+        kink=film.law.kink,
         edge_fill=film.law.fill_at(film.p_edge), scale=film.scale, p_edge=film.p_edge,
         slope=film.slope, area=share * film.radius**2,
     )  # fmt: skip

@@ -32,6 +32,7 @@ QUADRATIC = 1e-7  # a step this small leaves an error near its square: the last 
 STEP_LIMIT = 0.5  # change of the film, over its pressure, beyond which a step is shortened
 NEARLY = 1e-3  # a step this small is followed by the last ones, whose damping is kept
 LATE = 8  # Newton steps after which longer steps are asked whether rounding makes them
+WAITS = 10.0  # flows that a cell lacks, above which the shaft waits for a rupture with a kink
 PRESSED = 1e-13  # narrowest gap, in clearances, that is none
 NONE, ANSWERED, ENDED = range(3)  # no film at all, an answer, the last step of an iteration
 
@@ -90,9 +91,13 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
                     film.found[0, row, j] = film.found[1, row, j]
         if answered:
             return ANSWERED, iteration, residual, allowed, last, count
-        way = 0.0
+        way, waits = 0.0, False
+        if free and not ended and film.filling[0] > -np.inf:
+            waits = imbalance(film, place, force, False, load_scale) > WAITS
         if free and not ended:
-            x, y = target(film, columns, place, force, rate)
+            x, y = place[0], place[1]
+            if not waits:
+                x, y = target(film, columns, place, force, rate)
             way = np.hypot(x - place[0], y - place[1])
             ended = not np.isfinite(way)
             if not ended:
@@ -100,7 +105,8 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
                 way /= max(1.0 - np.hypot(place[0], place[1]), PRESSED)
                 place[0], place[1] = x, y
         if not ended:
-            change = correct(u, columns, film.weights[:number], film.order) / film.scale
+            change = correct(u, columns, film.weights[:number], film.order, *film.filling)
+            change /= film.scale
             change = way if way > change else change
             gap = 1.0 - np.hypot(place[0], place[1])
             short = change < (QUADRATIC if iteration <= LATE else COARSEST**0.5)

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.imbalance import imbalance, rounding
+from loadflow.journal.film.imbalance import flux_of, imbalance, rounding
 from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.film.rigid_cylinder import Cylinder, as_cylinder
 from loadflow.journal.solvers import _newton_kernels as kernel
@@ -22,6 +22,7 @@ from loadflow.journal.solvers._newton_kernels import (
     PRESSED,
     QUADRATIC,
     STEP_LIMIT,
+    WAITS,
 )
 from loadflow.numerics.convergence import COARSEST, answered, rounding_level
 
@@ -248,6 +249,9 @@ def solve_equilibrium(
     Each step solves the film's linearisation for the pressure and for its derivative by the
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
+
+    Where a law has a kink, the shaft waits while cells that count as full lack far too much: it
+    would follow a load that is not there, and move the rupture to and fro.
     """
     u, whole = u.copy(), as_cylinder(film)
     if whole is not None and free is EVERY:
@@ -257,6 +261,7 @@ def solve_equilibrium(
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     pressing, most = 0, math.inf
+    patience = WAITS * flux_of(film) if film.law.kink > -math.inf else math.inf
     if film.contact is not None and film.elastic:
         most = _OVERLOADED * film.load_scale(force)
     for iteration in range(1, max_iterations + 1):
@@ -273,7 +278,8 @@ def solve_equilibrium(
         slope = linear.stiffness + motion.rate * linear.damping
         excess = film.size(linear.columns[0]) / STEP_LIMIT
         step, missing = np.zeros(position.size), force - linear.load
-        step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
+        if linear.lacks <= patience:
+            step[free] = _solve(slope[free][:, free], missing[free], scale) / max(excess, 1.0)
         target, weights, share = _moved(film, u, linear, position, step, motion)
         way = math.hypot(*(target - position).tolist())
         length = math.hypot(*step)

@@ -13,7 +13,8 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.scene.cases import speed_shares
+from loadflow.scene.cases import speed_shares, wind_class
+from loadflow.scene.scene import Scene
 from loadflow.wind import iec
 from loadflow.wind.cases import by_load_case, check_counted, row_of
 
@@ -105,6 +106,89 @@ def lifetime_shares(
             "say how often a year they happen (per_year), or give the shares"
         )
     return shares
+
+
+def shares_in(
+    scene: Scene,
+    dlcs: Sequence[str],
+    wind_speeds: Sequence[float],
+    lengths: Sequence[float],
+    weights: Sequence[float],
+) -> np.ndarray | None:
+    """Share of the lifetime of each case of a scene, of 1 in all; None where none has one.
+
+    Those that the files give, else by `lifetime_shares`; events to which ``lifetime.per_year``
+    gives no number have none.
+
+    Parameters
+    ----------
+    scene : Scene
+        Wind, turbine and numbers of events.
+    dlcs : sequence of str, length k
+        Design load case of each case.
+    wind_speeds, lengths, weights : sequence of float, length k
+        Mean wind speed, m/s, length, s, and what the scene or its files say of the weight.
+
+    Returns
+    -------
+    ndarray, shape (k,), or None
+        The shares.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Events that take more than a year.
+
+    Examples
+    --------
+    >>> from loadflow.scene import make_scene
+    >>> scene = make_scene({"loads": {"dlc": ["1.2", "3.1"]}, "lifetime": {"per_year": {"3.1": 9}}})
+    >>> shares_in(scene, ["1.2", "3.1"], [8.0, 8.0], [600.0, 300.0], [1.0, 1.0]).round(5)
+    array([9.9991e-01, 9.0000e-05])
+    """
+    if scene.loads.weights == "given" and scene.loads.source == "files":
+        given = np.array(weights, dtype=float)
+        return given / given.sum() if given.sum() > 0 else None
+    per_year = by_load_case(scene.lifetime.per_year, dlcs)
+    try:
+        return lifetime_shares(
+            dlcs,
+            wind_speeds,
+            lengths if per_year else np.ones(len(dlcs)).tolist(),
+            wind_class=wind_class(scene),
+            operating=_operating(scene),
+            per_year=per_year,
+        )
+    except InputError:
+        if per_year:
+            raise
+        return None
+
+
+def seconds_per_year(scene: Scene, dlcs: Sequence[str]) -> np.ndarray:
+    """Of a year that cases share, (k,), s: production without idling has its winds alone.
+
+    Parameters
+    ----------
+    scene : Scene
+        Wind and turbine.
+    dlcs : sequence of str, length k
+        Design load case of each case.
+    """
+    seconds, there = np.full(len(dlcs), YEAR), set(dlcs)
+    by_wind = scene.loads.weights == "rayleigh" or scene.loads.source == "simulate"
+    if by_wind and of_load_cases(there, PRODUCTION) and not of_load_cases(there, IDLING):
+        below = iec.weibull_cdf(_operating(scene), iec.class_speeds(wind_class(scene)).v_ave, 2.0)
+        produces = ~np.isin(dlcs, [*by_load_case(scene.lifetime.per_year, there)])
+        seconds[produces] *= float(below[1] - below[0])
+    return seconds
+
+
+def _operating(scene: Scene) -> tuple[float, float]:
+    from loadflow.turbines import load_turbine
+
+    machine = load_turbine(scene.turbine.name)
+    return machine.cut_in, machine.cut_out
 
 
 def of_load_cases(dlcs: Iterable[str], group: Sequence[str]) -> set[str]:
