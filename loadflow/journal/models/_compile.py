@@ -16,5 +16,9 @@ outer = contracted(cache=True)
 inner = contracted(**LINKED)
 """Of a function that compiled ones alone call."""
 
+within = contracted(**LINKED, forceinline=True)
+"""Of a function that takes another one: it becomes a part of each that calls it. Else the place of
+the other one in memory would stay behind, with which numba keeps no kernel on the disk."""
+
 once = contracted(inline="always")
 """Of a function that is called at one place alone, of which it becomes a part."""

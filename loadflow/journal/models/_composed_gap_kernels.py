@@ -14,7 +14,6 @@ from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
 from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._full_kernels import keep_full
-from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around
 from loadflow.journal.models._shell_rub_kernels import give_way
 from loadflow.journal.models._thickening_kernels import thicken
@@ -79,7 +78,7 @@ def place(film, work, q):
         _thickened_gap(film, work)
 
 
-@beside(lambda film, work: None)
+@inner
 def _join(film, work):
     """Where stretches meet, points of no width are in the gap of the inner ones at their place."""
     m, planes = film.nodes.slopes.shape[1], work.gap[PLANES]
@@ -112,7 +111,7 @@ def turn(film, work, speed, lightness):
     work.numbers[1] = film.regime.onset * abs(speed) * lightness
 
 
-@beside(lambda film, work: None)
+@inner
 def _turbulent_gap(film, work):
     """Conductances of turbulent flow, from those of laminar flow."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
@@ -135,7 +134,7 @@ def smooth_beyond(rough):
     return _FAR * rough.size if rough.along.shape[0] == 0 else np.inf
 
 
-@beside(lambda film, work: None)
+@inner
 def _rough_gap(film, work):
     """Mean gap and conductances between rough surfaces."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]
@@ -204,7 +203,7 @@ def narrowest(film, work):
     return _opened_gap(film, least)
 
 
-@beside(lambda film, gap: gap)
+@inner
 def _opened_gap(film, gap):
     return opened(film.yielding, gap)[0]
 

@@ -21,7 +21,7 @@ from loadflow.journal.models._composed_gap_kernels import (
     OPEN,
     narrowest,
 )
-from loadflow.journal.models._of_effects import beside, of_shell
+from loadflow.journal.models._of_effects import of_shell
 from loadflow.journal.models._shell_growth_kernels import load_of, open_by, respond
 from loadflow.journal.models._shell_step_kernels import follow_place
 from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
@@ -253,7 +253,7 @@ def matrix(film, work, wedge, rate):
         hold_in_matrix(film, system)
 
 
-@beside(lambda film, work: None)
+@inner
 def _joined(film, work):
     """Add what the pressure opens at the points of no width where stretches meet to `matrix`."""
     nodes, m, grows = film.nodes, film.nodes.slopes.shape[1], work.state[DLOAD]
@@ -306,7 +306,7 @@ def carry(film, work, size):
         _carry_growth(film, work, size)
 
 
-@beside(lambda film, work, size: None)
+@inner
 def _carry_touch(film, work, size):
     """Add what asperities carry more by way of the shell, which the film presses open."""
     nx, m = film.ring.cos.size, film.nodes.slopes.shape[1]

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from loadflow.journal.cavitation import DP, SLACK, P
-from loadflow.journal.models._of_effects import beside
+from loadflow.journal.models._compile import inner
 
 
-@beside(lambda film, work: None)
+@inner
 def keep_full(film, work):
     """Keep such grooves full after the law: a complementarity has no row for their pressure."""
     if film.feeding.keeps_full:

@@ -23,7 +23,6 @@ from loadflow.journal.models._composed_gap_kernels import (
     narrowest,
     smooth_beyond,
 )
-from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._shell_growth_kernels import largest_growth
 from loadflow.journal.models._thickening_kernels import THICK, pressure_at, thickness_at
 from loadflow.journal.models._touch_kernels import opened
@@ -167,7 +166,7 @@ def _share_above(here, there, floor):
     return max(max(here, middle) - floor, 0.0) / max(abs(here - middle), 1e-300)
 
 
-@beside(lambda film, work: 0.0)
+@inner
 def _lost_more(film, work):
     """What the flow by pressure loses more than what drives it tells."""
     total, nodes, ring = 0.0, film.nodes, film.ring
@@ -247,7 +246,7 @@ def _uneven(film, work):
     return shear, grown
 
 
-@beside(lambda film, work, i, k: (1.0 / work.gap[PLANES, i, k], 0.0))
+@inner
 def _sheared_at(film, work, i, k):
     """Mean inverse of the gap at a point, with what grooves take of it, and growth of the gap."""
     h, m, rough, grown = work.gap[PLANES, i, k], film.nodes.slopes.shape[1], film.rough, 0.0

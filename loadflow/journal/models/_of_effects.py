@@ -1,9 +1,7 @@
-"""Kernels of effects that many films have none of, which are not compiled for those.
+"""Kernels of effects that most films have none of, which are not compiled for those.
 
-A film of smooth surfaces, of laminar flow, of one viscosity and without a supply is a `SmoothFilm`
-by its type. What stands for asperities, turbulence and grooves in the loops of others took a
-quarter of the time of compiling them; what stands for a shell that gives way all over, of a
-`ShelledFilm`, a third.
+What stands for a shell that gives way all over, of a `ShelledFilm`, takes a third of the time of
+compiling the loops that it stands in.
 """
 
 from __future__ import annotations
@@ -14,7 +12,7 @@ from typing import Any
 
 from numba.extending import overload
 
-from loadflow.journal.models.composed_film import ShelledFilm, SmoothFilm
+from loadflow.journal.models.composed_film import ShelledFilm
 from loadflow.numerics.linked import LINKED, contracted
 
 # a call takes a film with asperities 3 % of its time
@@ -22,16 +20,11 @@ _OPTIONS: Any = contracted.keywords | LINKED | {"forceinline": True}
 del _OPTIONS["cache"]  # with that of the kernel that calls it
 
 
-def beside(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
-    """Of a function of such an effect, called by kernels; `nothing` is it in a `SmoothFilm`.
+def of_shell(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
+    """Of a function of a `ShelledFilm`, called by kernels; `nothing` is it in all others.
 
     The film is its first argument.
     """
-    return where(lambda kind: kind is not SmoothFilm, nothing)
-
-
-def of_shell(nothing: Callable[..., Any]) -> Callable[[Callable[..., Any]], Any]:
-    """The same of a function of a `ShelledFilm`; `nothing` is it in all others."""
     return where(lambda kind: kind is ShelledFilm, nothing)
 
 

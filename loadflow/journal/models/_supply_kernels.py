@@ -4,17 +4,16 @@ from __future__ import annotations
 
 from loadflow.journal.cavitation import DFILL, DP, FILL
 from loadflow.journal.film.feed import mismatch_of
-from loadflow.journal.models._compile import inner
+from loadflow.journal.models._compile import inner, within
 from loadflow.journal.models._composed_gap_kernels import CUBE, DRAG, FLOW, MEAN, OPEN
-from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._thickening_kernels import pressure_at, thickness_at
 from loadflow.journal.supply import at_pump
 
-_mismatch, _at_pump = inner(mismatch_of), inner(at_pump)
+_mismatch, _at_pump = within(mismatch_of), inner(at_pump)
 
 
-@beside(lambda film, work, first, last, rate: 0.0)
+@inner
 def hold_points(film, work, first, last, rate):
     """Leave the pressure of a supply as it is in the columns `first` … `last`; the largest.
 
@@ -49,7 +48,7 @@ def hold_points(film, work, first, last, rate):
     return largest
 
 
-@beside(lambda film, system: None)
+@inner
 def hold_in_matrix(film, system):
     """The same in the derivatives of the residual."""
     m = film.nodes.slopes.shape[1]
@@ -62,7 +61,7 @@ def hold_in_matrix(film, system):
                 system.block[i, k, k] = 1.0
 
 
-@beside(lambda film, work, count: count)
+@inner
 def answers_of_grooves(film, work, count):
     """Lay unit changes of unknown pressures behind `count` columns; how many there are then."""
     slots = film.feeding.slots
@@ -76,7 +75,7 @@ def answers_of_grooves(film, work, count):
     return count + film.feeding.table.given.size
 
 
-@beside(lambda film, work: 0.0)
+@inner
 def unfed(film, work):
     """Largest mismatch of a groove and what feeds it, after `balance`, over the scale."""
     border, feeding, largest = work.border, film.feeding, 0.0
@@ -144,7 +143,7 @@ def _flows_by(film, work, wedge, rate, column):
         border.change[slot] += change
 
 
-@beside(lambda film, work, wedge, rate, size, fresh: None)
+@inner
 def follow_grooves(film, work, wedge, rate, size, fresh):
     """Let the pressures of grooves follow their flow in the columns, after `substitute`.
 
@@ -189,7 +188,7 @@ def follow_grooves(film, work, wedge, rate, size, fresh):
                     work.columns[column, i, k] += by * answer
 
 
-@beside(lambda film, work, i, k, held, modes, size: None)
+@inner
 def displaced_by(film, work, i, k, held, modes, size):
     """Add what a velocity displaces from a point of a groove to the flow of that, see `_finish`."""
     slot = film.feeding.slots[film.held.grooves[i, k]]

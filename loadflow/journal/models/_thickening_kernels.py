@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from loadflow.journal.cavitation import DP, P
 from loadflow.journal.models._compile import inner
-from loadflow.journal.models._of_effects import beside
 from loadflow.journal.models._table_kernels import of_table
 
 PRESSURE, THICK = range(2)  # of `work.thick`
@@ -16,7 +15,7 @@ _RISE = 2.0  # of the logarithm of the viscosity in a Newton step
 _LEAST = 0.01  # share of a step that is always gone
 
 
-@beside(lambda film, work: None)
+@inner
 def thicken(film, work):
     """Let what drives the flow know the viscosity, in the `state` that the law filled."""
     if film.thickening.on:
@@ -45,7 +44,7 @@ def thickness_at(film, work, i, k):
     return 1.0 / of_table(film.thickening, 0, film.ring.p_edge)[1]
 
 
-@beside(lambda film, work, step, size: 1.0)
+@inner
 def share_of_rise(film, work, step, size):
     """Share of a Newton step in which pressure makes the liquid e² times as thick at most.
 

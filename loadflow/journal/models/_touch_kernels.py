@@ -9,7 +9,7 @@ import numpy as np
 
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.models._compile import inner
-from loadflow.journal.models._of_effects import beside, of_shell
+from loadflow.journal.models._of_effects import of_shell
 from loadflow.journal.models._small_systems import fill_upper
 from loadflow.journal.models._table_kernels import between, of_table
 
@@ -33,7 +33,7 @@ def touch(film, work, q):
         work.normal[0] = _touch_bore(film, work, q)
 
 
-@beside(lambda film, work, q: 0.0)
+@inner
 def _touch_bore(film, work, q):
     """∫ p_a and `work.touch` in a rigid cylindrical bore, by the table of a line of contact."""
     normal, rough = 0.0, film.rough
@@ -56,7 +56,7 @@ def _touch_bore(film, work, q):
     return normal
 
 
-@beside(lambda film, work, q: 0.0)
+@inner
 def _touch_shell(film, work, q):
     """∫ p_a and `work.touch` where asperities are asked from place to place."""
     return touch_places(film, work, q)

@@ -275,7 +275,7 @@ class ShelledFilm(Composed):
 
 
 class SmoothFilm(Composed):
-    """One of smooth surfaces, laminar flow, one viscosity and no supply: no loop has more."""
+    """No film is one: it tells kernels apart that were compiled before, in their lists on disk."""
 
 
 class ComposedWork(NamedTuple):

@@ -28,7 +28,6 @@ from loadflow.journal.models.composed_film import (
     Composed,
     ComposedWork,
     ShelledFilm,
-    SmoothFilm,
     lanes_of,
     make_work,
     regime_of,
@@ -376,9 +375,7 @@ def build(
     if contour:
         uneven = with_contours(uneven, bearing, ring, nodes.z, yielding.z)
     thickening = thickening_of(options.liquid, units.p_edge)
-    effects = options.contact, options.turbulence, options.supply
-    smooth = SmoothFilm if effects == (None, None, None) and not thickening.on else Composed
-    film = (ShelledFilm if modes.on else smooth)(
+    film = (ShelledFilm if modes.on else Composed)(
         ring, nodes, places, lanes_of(nodes, places.depth), give, modes,
         rough_of(bearing, options.contact, whole, units), yielding, regime_of(bearing, options),
         held, feeding, uneven, thickening,
