@@ -391,7 +391,10 @@ def test_the_report_begins_with_how_many_limits_hold_and_which_do_not(page):
     )
     assert verdict_sentence({"verdicts": to_dataset([kept])}) == "1 of 1 limits hold."
     overview = page.read_text().split("<h2>Overview</h2>")[1]
-    assert re.match(r"\s*<p>\d+ of \d+ limits hold", overview)
+    assert re.match(r'\s*<p class="conclusion">\d+ of \d+ limits hold', overview)
+    points = re.findall("<li>(.*?)</li>", overview[: overview.index("<table")])
+    assert any(one.startswith("Not accurate enough: ") for one in points)
+    assert sum("±" in one and "smallest film" in one for one in points) <= 1  # one interval each
 
 
 def test_what_a_run_took_is_told_in_minutes_where_it_is_long():

@@ -124,9 +124,23 @@ def meant(name: str, known: Iterable[str]) -> str:
     --------
     >>> meant("two-sferical", ["two-spherical", "four-point"])
     '; did you mean two-spherical?'
+    >>> meant("VG320", ["iso-vg-68", "mineral-vg-320", "pao-vg-320"])
+    '; did you mean mineral-vg-320 or pao-vg-320?'
     """
-    near = difflib.get_close_matches(name, [*known], n=1, cutoff=0.6)
-    return f"; did you mean {near[0]}?" if near else ""
+    names = [*known]
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    part = _letters(name)
+    if not near and len(part) >= _TELLING:
+        near = [one for one in names if part in _letters(one)]
+    return f"; did you mean {' or '.join(near[:3])}?" if near else ""
+
+
+_TELLING = 4  # letters and digits of a part of a name that may stand for it
+
+
+def _letters(name: str) -> str:
+    """Letters and digits of a name, small: how it is known, however it is written."""
+    return "".join(filter(str.isalnum, name)).lower()
 
 
 def not_one_of(value: object, allowed: Iterable[str]) -> str:
