@@ -61,7 +61,7 @@
       scales: { x: { time: false, ...(data.points ? { range: (_, a, b) => [a - 0.04 * (b - a || 1), b + 0.04 * (b - a || 1)] } : {}) }, y: { distr: panel.log ? 3 : 1, ...(panel.level != null ? { range: (_, a, b) => reach(a, b, panel) } : {}) } },
       axes: [
         { show: true, label: last ? data.label : undefined, labelSize: 18, size: 30, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 } },
-        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1, ...(panel.log ? { filter: ruled } : {}) }, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
+        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1, ...(panel.log ? { filter: ruled } : {}) }, ticks: panel.log ? { filter: ruled } : {}, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
       ],
       series: [{ label: data.points ? "case" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
       hooks: { draw: [...(panel.level != null ? [level(panel.level)] : []), ...(data.mark != null ? [mark(data.mark)] : [])] },
