@@ -198,10 +198,11 @@ def test_points_over_wind_speed_stand_at_their_own_case_and_none_is_left_out():
     speed = np.repeat(np.arange(30.0), 100)
     table = xr.Dataset(
         {
-            name: ("case", np.arange(3000.0), {"long_name": name, "units": "1"})
-            for name in (
-                "largest_eccentricity_ratio", "smallest_film", "largest_pressure",
-                "largest_ball_force", "smallest_static_safety",
+            name: ("case", np.arange(3000.0), {"long_name": name, "units": unit})
+            for name, unit in (
+                ("largest_eccentricity_ratio", "1"), ("smallest_film", "m"),
+                ("largest_pressure", "1"), ("largest_ball_force", "1"),
+                ("smallest_static_safety", "1"),
             )
         },
         {"case": cases, "wind_speed": ("case", speed)},
