@@ -11,6 +11,7 @@ from typing import Any, get_args, get_type_hints
 import annotated_types as at
 
 from loadflow.errors import InputError
+from loadflow.quantities import CELSIUS
 
 
 def require(condition: bool, name: str, value: object, allowed: str) -> None:
@@ -42,7 +43,25 @@ def check_fields(instance: Any) -> None:
             raise InputError(f"{name}: must be a finite number, got {value!r}")
         for bound in bounds:
             if not _holds(bound, value):
-                raise InputError(f"{name}: must be {_words(bound)}, got {value!r}")
+                more = in_kelvin(name, value, getattr(bound, "gt", getattr(bound, "ge", 0.0)))
+                raise InputError(f"{name}: must be {_words(bound)}, got {value!r}{more}")
+
+
+def in_kelvin(name: str, value: object, lowest: object) -> str:
+    """Say what a temperature below the `lowest` is if it is meant in °C; empty for anything else.
+
+    Examples
+    --------
+    >>> in_kelvin("inlet_temperature", 45.0, 200)
+    '; temperatures are in K: 45 °C is 318.15 K'
+    """
+    numbers = isinstance(value, (int, float)) and isinstance(lowest, (int, float))
+    if not (numbers and name.endswith("temperature") and -CELSIUS < value < lowest > _COLDEST):
+        return ""
+    return f"; temperatures are in K: {value:g} °C is {value + CELSIUS:g} K"
+
+
+_COLDEST = 100.0  # K: what may be below is a difference of temperatures
 
 
 @cache
