@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from loadflow.errors import InputError
+
 
 class Quantity(NamedTuple):
     """A quantity of a result.
@@ -91,6 +93,35 @@ def fitting_unit(units: str, largest: float) -> tuple[float, str]:
 
 
 _LEAST = 0.1
+
+
+def factor_to(unit: str, units: str) -> float:
+    """Return the factor from an SI unit to one in which an engineer reads it.
+
+    Parameters
+    ----------
+    unit : str
+        That is wanted.
+    units : str
+        SI unit.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        Numbers of `units` are not shown in `unit`.
+
+    Examples
+    --------
+    >>> factor_to("µm", "m"), factor_to("kN m", "N m")
+    (1000000.0, 0.001)
+    """
+    known = [READABLE[units]] if units in READABLE else []
+    every = [(1.0, units), *known, *_SMALLER.get(units, ())]
+    for factor, shown in every:
+        if shown == unit:
+            return factor
+    names = ", ".join(dict.fromkeys(shown for _, shown in every))
+    raise InputError(f"units: {unit!r} is no unit of numbers in {units}; there are {names}")
 
 
 def scale_of(units: str) -> tuple[float, str]:

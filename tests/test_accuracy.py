@@ -323,7 +323,7 @@ def test_a_finer_model_that_what_cannot_be_helped_outweighs_is_told_beside_what_
     while (finer := models()["journal"].finer(finest)) is not None:
         finest = finer
     [said] = found_shortfalls(wanted, finest, check)
-    assert said.endswith("; no finer one was measured")
+    assert said.endswith("; nothing, no finer model was measured")
 
 
 def test_a_model_jumps_to_the_first_rung_that_the_ladder_lets_expect_to_hold():

@@ -68,6 +68,8 @@ def test_show_prints_a_scene_that_is_a_scene(loadflow, tmp_path):
     [
         ("[loads]\nwind = 3\n", "loads.wind: unknown key"),
         ("[journal.lubricant]\nviscosity = -1\n", "viscosity = -1: must be greater than 0"),
+        ("friction.temperature = 40\n", "temperatures are in K: 40 °C is 313.15 K"),
+        ('bearings = ["jornal-thrust"]\n', ": bearings = 'jornal-thrust': is none of those sized"),
         ("[loads\n", "not a TOML file"),
         ('[loads]\nsource = "files"\nfiles = ["gone.outb"]\n', "gone.outb"),
         ('[loads]\nsource = "files"\n', "none is given"),

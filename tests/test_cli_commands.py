@@ -377,6 +377,8 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--force-z", "nan"], "nan"),
         (["rolling", *ROLLING], "give --groove-radius, or a scene with --scene"),
         (["rolling", "--bearing", "N"], "give --scene"),
+        (["friction-rig"], "give --speed-rpm, or --measured; for example"),
+        (["plan", "."], ".: a folder, not a scene"),
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--speed-rpm", 0], "not 0"),
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--wall", 0.1, 1], "give --inner-ring"),
         (

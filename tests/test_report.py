@@ -198,10 +198,11 @@ def test_points_over_wind_speed_stand_at_their_own_case_and_none_is_left_out():
     speed = np.repeat(np.arange(30.0), 100)
     table = xr.Dataset(
         {
-            name: ("case", np.arange(3000.0), {"long_name": name, "units": "1"})
-            for name in (
-                "largest_eccentricity_ratio", "smallest_film", "largest_pressure",
-                "largest_ball_force", "smallest_static_safety",
+            name: ("case", np.arange(3000.0), {"long_name": name, "units": unit})
+            for name, unit in (
+                ("largest_eccentricity_ratio", "1"), ("smallest_film", "m"),
+                ("largest_pressure", "1"), ("largest_ball_force", "1"),
+                ("smallest_static_safety", "1"),
             )
         },
         {"case": cases, "wind_speed": ("case", speed)},
@@ -391,7 +392,10 @@ def test_the_report_begins_with_how_many_limits_hold_and_which_do_not(page):
     )
     assert verdict_sentence({"verdicts": to_dataset([kept])}) == "1 of 1 limits hold."
     overview = page.read_text().split("<h2>Overview</h2>")[1]
-    assert re.match(r"\s*<p>\d+ of \d+ limits hold", overview)
+    assert re.match(r'\s*<p class="conclusion">\d+ of \d+ limits hold', overview)
+    points = re.findall("<li>(.*?)</li>", overview[: overview.index("<table")])
+    assert any(one.startswith("Not accurate enough: ") for one in points)
+    assert sum("±" in one and "smallest film" in one for one in points) <= 1  # one interval each
 
 
 def test_what_a_run_took_is_told_in_minutes_where_it_is_long():

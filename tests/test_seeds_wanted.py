@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from loadflow.planning.plan import make_plan
-from loadflow.planning.seeds_wanted import of_run, seeds_wanted, sentences
+from loadflow.planning.seeds_wanted import enough_seeds, of_run, seeds_wanted, sentences
 from loadflow.scene.scene import make_scene
 from loadflow.studies.seed_scatter import scatter_of_one_seed
 
@@ -64,6 +64,9 @@ def test_a_run_is_told_by_its_own_seeds_and_they_halve_the_interval_four_at_a_ti
     one = ratio[0]
     needed = (one.interval * np.sqrt(400) / 0.05) ** 2
     assert one.seeds == max(1, np.ceil(needed))
+    said = enough_seeds([replace(one, seeds=7, wanted=0.05)])
+    assert said == "seeds of each wind speed that would do: largest eccentricity ratio 7 for ±5 %"
+    assert enough_seeds([]) == ""
 
 
 def test_a_plan_without_a_run_takes_the_main_job_and_says_what_seeds_would_buy():

@@ -488,6 +488,14 @@ def test_temperatures_are_drawn_in_degrees_and_their_differences_in_kelvin():
     assert plots.readable(warm.rename("oil_rise"))[1] == "K"
 
 
+def test_values_are_shown_in_the_unit_that_is_asked_for_or_refused():
+    moment = xr.DataArray([2.5e6], name="moment", attrs={"units": "N m"})
+    assert plots.readable(moment, "kN m")[0].tolist() == [2500.0]
+    assert plots.readable(moment, "N m")[0].tolist() == [2.5e6]
+    with pytest.raises(InputError, match=r"units: 'µm' .* in N m; there are N m, MN m, kN m"):
+        plots.readable(moment, "µm")
+
+
 def test_viscosities_are_shown_in_the_unit_of_oil_data():
     heat = Heat("mineral-vg-320", inlet_temperature=313.15)
     table = BEARING.equilibrium((1e3, 0.0), 50.0, heat=heat)._repr_html_()

@@ -64,7 +64,9 @@ OutFolder = Annotated[Path, typer.Option("--out", "-o", help="Folder for runs.")
 RunName = Annotated[str | None, typer.Option(help="Name of the run; default: the scene's.")]
 Workers = Annotated[int, typer.Option(min=0, help="Processes; 0: one for each core.")]
 Scheduler = Annotated[str | None, typer.Option(help="Dask scheduler, tcp://host:port.")]
-OtherSettings = Annotated[bool, typer.Option(help="Replace parts of other settings.")]
+OtherSettings = Annotated[
+    bool, typer.Option("--overwrite", help="Replace parts of other settings.")
+]
 
 Overwrite = Annotated[bool, typer.Option("--overwrite", help="Replace a file that is there.")]
 

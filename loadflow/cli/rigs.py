@@ -9,6 +9,7 @@ import typer
 
 from loadflow.cli.base import AsJson, app, print_json, print_rows
 from loadflow.cli.stated import refuse
+from loadflow.errors import InputError
 from loadflow.quantities import CELSIUS, percent
 
 Arrangement = Literal["rollers", "journal", "straight"]
@@ -75,6 +76,10 @@ def friction_rig(
     else:
         refuse("a crank is loaded by its masses, and has rollers on its pin", "load", "pin")
         rig = CrankRig(thrust_share=thrust_share, **told)
+    if not speed_rpm and measured is None:
+        raise InputError(
+            "give --speed-rpm, or --measured; for example: loadflow friction-rig --speed-rpm 1000"
+        )
     rows = rig_torques(rig, tuple(speed_rpm or ()), stage, measured)
     if as_json:
         print_json({"units": {"rpm": "1/min", "off": "1", "others": "N m"}, "rows": rows})

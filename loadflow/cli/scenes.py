@@ -370,6 +370,11 @@ def validate(
         if shown and not summary:
             out.print(_table_of(shown))
         out.print(_counts_of([check for _, check in rows]))
+        if any(check.outcome in ("refused", "missed") for _, check in rows):
+            out.print(
+                "refused: the print contradicts the source's own data; missed: ours is off, for a "
+                "reason that stands at the number"
+            )
     if bad:
         raise LoadflowError(f"{bad} numbers are out of their tolerance")
 

@@ -22,7 +22,7 @@ from loadflow.journal.shells import Shell
 from loadflow.journal.supply import Supply
 from loadflow.journal.turbulence import Turbulence
 from loadflow.numerics.convergence import Control as Control
-from loadflow.numerics.fields import require
+from loadflow.numerics.fields import meant, require
 
 Grading = Literal["auto", "uniform", "graded"]
 Inlet = Literal["auto", "widest gap"] | None
@@ -133,10 +133,9 @@ class Film:
             raise InputError("lubricant: not given; a film needs a Lubricant, or heat and its oil")
         if self.lubricant is not None and self.heat is not None:
             raise InputError("lubricant: not given with heat, as it follows from heat.oil")
-        known = self.contact is None or isinstance(self.contact, Contact)
-        require(known, "contact", self.contact, "a Contact, or None")
-        known = self.turbulence is None or isinstance(self.turbulence, Turbulence)
-        require(known, "turbulence", self.turbulence, "a Turbulence, or None")
+        for name, kinds, allowed in _KINDS:
+            value = getattr(self, name)
+            require(value is None or isinstance(value, kinds), name, value, f"{allowed}, or None")
         check_rung(self.rung)
         require(self.inlet in ("auto", "widest gap", None), "inlet", self.inlet, _INLETS)
         require(self.grading in _GRADINGS, "grading", self.grading, " or ".join(_GRADINGS))
@@ -234,6 +233,11 @@ class Film:
 
 _INLETS = '"auto", "widest gap" or None'
 _GRADINGS = ("auto", "uniform", "graded")
+_KINDS = (
+    ("lubricant", Lubricant, "a Lubricant, such as Lubricant(viscosity=0.05)"),
+    ("contact", Contact, "a Contact"),
+    ("turbulence", Turbulence, "a Turbulence"),
+)
 
 
 def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
@@ -290,7 +294,8 @@ def film_and_control(
         given[name] = value
     unknown = [name for name in given if name not in _FILM]
     if unknown or len(more) >= len(_FILM):
-        raise TypeError(f"unexpected arguments: {', '.join(unknown) or more}")
+        near = "".join(meant(name, (*_FILM, *_CONTROL)) for name in unknown[:1])
+        raise TypeError(f"unexpected arguments: {', '.join(unknown) or more}{near}")
     if isinstance(film, Film):
         if given:
             raise InputError(f"{', '.join(given)}: not given with a Film, which says so")

@@ -11,6 +11,7 @@ from typing import Any, get_args, get_type_hints
 import annotated_types as at
 
 from loadflow.errors import InputError
+from loadflow.quantities import CELSIUS
 
 
 def require(condition: bool, name: str, value: object, allowed: str) -> None:
@@ -42,7 +43,25 @@ def check_fields(instance: Any) -> None:
             raise InputError(f"{name}: must be a finite number, got {value!r}")
         for bound in bounds:
             if not _holds(bound, value):
-                raise InputError(f"{name}: must be {_words(bound)}, got {value!r}")
+                more = in_kelvin(name, value, getattr(bound, "gt", getattr(bound, "ge", 0.0)))
+                raise InputError(f"{name}: must be {_words(bound)}, got {value!r}{more}")
+
+
+def in_kelvin(name: str, value: object, lowest: object) -> str:
+    """Say what a temperature below the `lowest` is if it is meant in °C; empty for anything else.
+
+    Examples
+    --------
+    >>> in_kelvin("inlet_temperature", 45.0, 200)
+    '; temperatures are in K: 45 °C is 318.15 K'
+    """
+    numbers = isinstance(value, (int, float)) and isinstance(lowest, (int, float))
+    if not (numbers and name.endswith("temperature") and -CELSIUS < value < lowest > _COLDEST):
+        return ""
+    return f"; temperatures are in K: {value:g} °C is {value + CELSIUS:g} K"
+
+
+_COLDEST = 100.0  # K: what may be below is a difference of temperatures
 
 
 @cache
@@ -124,9 +143,23 @@ def meant(name: str, known: Iterable[str]) -> str:
     --------
     >>> meant("two-sferical", ["two-spherical", "four-point"])
     '; did you mean two-spherical?'
+    >>> meant("VG320", ["iso-vg-68", "mineral-vg-320", "pao-vg-320"])
+    '; did you mean mineral-vg-320 or pao-vg-320?'
     """
-    near = difflib.get_close_matches(name, [*known], n=1, cutoff=0.6)
-    return f"; did you mean {near[0]}?" if near else ""
+    names = [*known]
+    near = difflib.get_close_matches(name, names, n=1, cutoff=0.6)
+    part = _letters(name)
+    if not near and len(part) >= _TELLING:
+        near = [one for one in names if part in _letters(one)]
+    return f"; did you mean {' or '.join(near[:3])}?" if near else ""
+
+
+_TELLING = 4  # letters and digits of a part of a name that may stand for it
+
+
+def _letters(name: str) -> str:
+    """Letters and digits of a name, small: how it is known, however it is written."""
+    return "".join(filter(str.isalnum, name)).lower()
 
 
 def not_one_of(value: object, allowed: Iterable[str]) -> str:

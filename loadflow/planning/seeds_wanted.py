@@ -197,6 +197,18 @@ def _of_reference(wind_speeds: int, duration: float) -> dict[str, float]:
     }
 
 
+def enough_seeds(found: Iterable[SeedsWanted]) -> str:
+    """Say how many seeds of each wind speed would do for each answer; empty if there is none.
+
+    Parameters
+    ----------
+    found : iterable of SeedsWanted
+        Of a finished run, whose answers have intervals of their own.
+    """
+    told = [f"{one.answer} {one.seeds} for ±{percent(one.wanted)}" for one in found]
+    return f"seeds of each wind speed that would do: {'; '.join(told)}" if told else ""
+
+
 def sentences(found: Iterable[SeedsWanted]) -> list[str]:
     """Say what seeds leave open, how many would do, and where they matter more than models.
 

@@ -135,7 +135,7 @@ def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
 def _finer_in_words(wanted: Scene, rungs: Rungs) -> str:
     """What would help against the error of a rung."""
     held = len(choices(wanted, rungs)) == 1
-    return f"leave {rungs.section} to the plan" if held else "no finer one was measured"
+    return f"leave {rungs.section} to the plan" if held else "nothing, no finer model was measured"
 
 
 def _rung_in_words(scene: Scene, model: str) -> str:

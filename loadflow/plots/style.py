@@ -15,7 +15,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import LayoutEngine
 
-from loadflow.quantities import fitting_unit, scale_of
+from loadflow.quantities import factor_to, fitting_unit, scale_of
 
 STYLE: Any = {
     "figure.constrained_layout.use": True,
@@ -43,12 +43,17 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     data : xarray.DataArray
         Values with the attribute `units`.
     units : str, optional
-        In place of that attribute.
+        Unit to return them in; default that in which they have no leading zeros.
 
     Returns
     -------
     tuple of (ndarray, str)
         Values and unit.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        The values are not shown in `units`.
 
     Examples
     --------
@@ -62,10 +67,11 @@ def readable(data: xr.DataArray, units: str | None = None) -> tuple[np.ndarray, 
     if data.attrs.get("units") == "K" and str(data.name).endswith("temperature"):  # no difference
         zero, unit = scale_of("K")
         return values - zero, unit
+    own = data.attrs.get("units", "–")
+    if units is not None:
+        return values * factor_to(units, own), units
     known = np.abs(values[np.isfinite(values)])
-    factor, unit = fitting_unit(data.attrs.get("units", "–"), float(known.max(initial=0.0)))
-    if units == "µm":
-        factor, unit = 1e6, "µm"
+    factor, unit = fitting_unit(own, float(known.max(initial=0.0)))
     return values * factor, unit
 
 

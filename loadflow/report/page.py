@@ -120,7 +120,9 @@ class Picture:
 
 @dataclass(frozen=True)
 class Section:
-    """A part of the page, shown in order: text, tables, short facts, pictures.
+    """A part of the page, shown in order: text, points, tables, short facts, pictures.
+
+    Where there are `points`, sentences of which each stands alone, the text is the conclusion.
 
     Examples
     --------
@@ -134,6 +136,7 @@ class Section:
     tables: Sequence[Table] = field(default_factory=list)
     pictures: Sequence[Shown] = field(default_factory=list)
     facts: Mapping[str, str] = field(default_factory=dict)
+    points: Sequence[str] = ()
 
     @property
     def anchor(self) -> str:

@@ -15,7 +15,7 @@ import xarray as xr
 import loadflow
 from loadflow.errors import InputError
 from loadflow.planning.budget import Answer, answers, more_seeds
-from loadflow.planning.seeds_wanted import of_run, sentences
+from loadflow.planning.seeds_wanted import enough_seeds, of_run
 from loadflow.planning.verification import WARN
 from loadflow.plots.journal import orbit
 from loadflow.plots.style import readable
@@ -247,13 +247,11 @@ def _overview(
     if unused := unused_keys(scene):
         rows = [[key, why] for key, why in unused.items()]
         notes.append(Table("Keys without effect", ["key", "why"], rows))
-    said = [verdict_sentence(tables)]
-    if short := manifest.get("shortfalls"):
-        said.append(f"not accurate enough: {'; '.join(short)}")
+    said = [f"not accurate enough: {short}" for short in manifest.get("shortfalls", ())]
     said.append(more_seeds(found, lambda result: min(scene.allowed(result), WARN)))
-    said += sentences(of_run(scene, tables, manifest.get("expected_errors", {})))[:1]
-    text = " ".join(f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one)
-    return Section("Overview", text, tables=notes, pictures=pictures)
+    said.append(enough_seeds(of_run(scene, tables, manifest.get("expected_errors", {}))))
+    points = [f"{one[0].upper()}{one[1:].rstrip('.')}." for one in said if one]
+    return Section("Overview", verdict_sentence(tables), notes, pictures, points=points)
 
 
 def _shown_cases(tables: dict[str, xr.Dataset], manifest: dict[str, Any]) -> list[str]:

@@ -78,7 +78,7 @@ QUICK = 5.0
 
 Say = Callable[[str, int, int], None]
 
-WHAT = "compiling kernels, once on this machine"
+WHAT = "making kernels ready, compiled once on this machine"
 """What is said of it, beside how many of its jobs are done."""
 
 AS_CALLED = "compiling kernels as they are called, about a minute, once on this machine"

@@ -116,7 +116,7 @@ class JournalLimits(FilmLimits):
     specific_load: Positive | None = None
     oil: Oil = "mineral, oxygen-saturated"
     oil_hours: Annotated[float, Field(ge=100, le=10_000)] = 100.0
-    temperature: Positive | None = None
+    temperature: Annotated[float, Field(gt=200)] | None = None
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:

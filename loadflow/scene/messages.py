@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 from pydantic import BaseModel, ValidationError
 
-from loadflow.numerics.fields import meant, shown, unknown_key
+from loadflow.numerics.fields import in_kelvin, meant, shown, unknown_key
 from loadflow.scene.films import HEATS
 from loadflow.scene.places import AXIAL, GEOMETRIES, Location
 
@@ -48,7 +48,8 @@ def message(
         elif item["type"] == "missing":
             lines.append(f"{source}: {key}: this key is missing")
         elif item["type"] == "value_error":
-            lines += [f"{source}: {key}: {one}" for one in reason.splitlines()]
+            told = [one if _names_key(key, one) else f"{key}: {one}" for one in reason.splitlines()]
+            lines += [f"{source}: {one}" for one in told]
         elif item["type"] in _NO_TABLE:
             known = _known(item["loc"], _schema(model))
             keys = ", ".join(path for path, name in known if path == name)
@@ -56,6 +57,10 @@ def message(
             lines.append(f"{source}: {key} = {shown(item['input'])}: {table}")
         else:
             near = meant(str(item["input"]), re.findall("'(.*?)'", reason)) if _listed(item) else ""
+            least = item.get("ctx", {}).get("gt", item.get("ctx", {}).get("ge"))
+            near = near or in_kelvin(
+                str(item["loc"][-1] if item["loc"] else ""), item["input"], least
+            )
             lines.append(f"{source}: {key} = {shown(item['input'])}: {reason}{near}")
     return "\n".join(lines)
 
@@ -105,6 +110,11 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
         if location[:size] in origins:
             return (*origins[location[:size]], *location[size:])
     return location
+
+
+def _names_key(key: str, reason: str) -> bool:
+    """Whether what is said of a scene as a whole begins with the key that it is about."""
+    return key == "scene" and re.match(r"[\w.-]+( = [^:]*)?: ", reason) is not None
 
 
 _NO_TABLE = ("dataclass_type", "model_type", "dict_type", "mapping_type")

@@ -358,6 +358,10 @@ def read_scene(path: str | Path) -> Scene:
     ('look', 1)
     """
     path = Path(path)
+    if path.is_dir():
+        ran = path / "scene.toml"
+        more = f"; that of this run is {ran}" if ran.is_file() else ""
+        raise InputError(f"{path}: a folder, not a scene{more}")
     try:
         with path.open("rb") as stream:
             data = _data(path, stream)

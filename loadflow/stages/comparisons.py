@@ -204,8 +204,8 @@ def other_cells(scene: Scene) -> tuple[Scene | None, str]:
     coarser = with_settings(scene, "journal", {"grid": grid}) if grid else None
     if coarser is None:
         return None, ""
-    moves = "half as fine: by first order what it has is as far off as this moves"
-    return coarser, f"the film {FILM_MODEL.key(coarser)}, {moves}"
+    moves = "half as fine; by first order, the film is off by as much as it moves"
+    return coarser, f"the film {FILM_MODEL.key(coarser)} ({moves})"
 
 
 def _warmer(options: Journal, film: xr.Dataset) -> Journal:

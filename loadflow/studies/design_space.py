@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from loadflow.errors import InputError
 from loadflow.scene.design import Design, Variation
 from loadflow.scene.friction import Friction
+from loadflow.scene.messages import message
 from loadflow.scene.places import JOURNAL, places_of, sections_of
 from loadflow.scene.scene import Candidate, Scene
 
@@ -155,18 +156,19 @@ class Space:
         loadflow.errors.InputError
             The values do not fit together, such as rollers that overlap.
         """
-        about = {"title": self.title, "source": self.source}
+        about, origins = {"title": self.title, "source": self.source}, {}
         try:
             places, friction = self.data(point)
+            sections = sections_of(places, ())
+            origins = sections.origins
             return (
-                Candidate.model_validate(about | sections_of(places, ("design",)).data),
+                Candidate.model_validate(about | sections.data),
                 Friction.model_validate(friction),
             )
         except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(map(str, first["loc"]))
-            said = first["msg"].removeprefix("Value error, ")
-            raise InputError(f"design: {where}: {said}") from error
+            model = Friction if error.title == Friction.__name__ else Candidate
+            said = message(error, "design", origins if model is Candidate else {}, model)
+            raise InputError(said.splitlines()[0]) from error
         except ValueError as error:
             raise InputError(f"design: {error}") from error
 

@@ -35,6 +35,12 @@ Measures = tuple[float, float, float]
 
 NEEDED = ("balls", "ball_diameter", "pitch_diameter", "groove_radius")
 
+EXAMPLE = (
+    "loadflow rolling --balls 60 --ball-diameter 0.06 --pitch-diameter 2.4 "
+    "--groove-radius 0.0315 --force-z 1e6 --moment-y 1e6"
+)
+"""A call with all that one bearing needs."""
+
 
 def slewing_bearing(
     *,
@@ -65,7 +71,7 @@ def slewing_bearing(
     """
     if missing := [name for name in NEEDED if name not in measures]:
         options = ", ".join(f"--{name.replace('_', '-')}" for name in missing)
-        raise InputError(f"give {options}, or a scene with --scene")
+        raise InputError(f"give {options}, or a scene with --scene; for example: {EXAMPLE}")
     bearing = SlewingBearing(contact_angle=math.radians(contact_angle_deg), **measures)
     if inner_ring is None and outer_ring is None:
         if wall is not None:

@@ -83,7 +83,7 @@ def series(cube, tmp_path_factory):
 @pytest.mark.parametrize(
     ("keys", "said"),
     [
-        ({"geometry.diametre": [1, 2]}, "geometry.diametre"),
+        ({"geometry.diametre": [1, 2]}, r"geometry.diametre: unknown key; did you mean diameter\?"),
         ({"geometry.diameter": [-2, -1]}, "geometry.diameter"),
         ({"G.geometry.diameter": [1, 2]}, "G.geometry.diameter"),
         ({"geometry.shape": {"values": [{"kind": "cylindrical"}, {"kind": "oval"}]}}, "shape"),

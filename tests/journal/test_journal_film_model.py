@@ -62,6 +62,7 @@ def test_a_control_is_what_its_keywords_say():
         ({"film": OIL, "heat": Heat()}, "lubricant: not given with heat"),
         ({"film": FILM, "control": Control(), "strict": False}, "strict: not given with control"),
         ({"film": OIL, "contact": "rough"}, "contact = 'rough' is not allowed: a Contact, or None"),
+        ({"film": 0.05}, r"lubricant = 0.05 is not allowed: a Lubricant, such as Lubricant\(visc"),
         ({"film": FILM, "weights": [1.0]}, "weights = .* without heat"),
     ],
 )

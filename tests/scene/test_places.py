@@ -234,7 +234,7 @@ def test_places_that_the_shaft_lacks_are_told_of_all_candidates():
     film = {"kind": "journal"}
     lines = told_of({"candidates": {"a": {"X": film, "Y": film}, "b": {"N": film, "Z": film}}})
     assert lines == [
-        f"own.toml: scene: candidates.{where}: the shaft has only N, N2, M"
+        f"own.toml: candidates.{where}: the shaft has only N, N2, M"
         for where in ("a.X", "a.Y", "b.Z")
     ]
 

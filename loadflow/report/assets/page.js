@@ -15,10 +15,12 @@
   const drawn = new Map(); // element → its plots
   const rounded = v => (v == null ? "–" : Number(v.toPrecision(5)).toString());
   const RAISED = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
+  const power = v => (v > 0 ? Math.round(Math.log10(v)) : NaN);
+  const whole = v => v != null && Math.abs(v / 10 ** power(v) - 1) < 1e-6;
+  const sparse = ticks => ticks.filter(whole).length < 2; // few powers of ten: all ticks count
+  const ruled = (_, ticks) => (sparse(ticks) ? ticks : ticks.map(v => (whole(v) ? v : null)));
   function decades(ticks) { // powers of ten are written; all ticks where there are few of these
-    const power = v => (v > 0 ? Math.round(Math.log10(v)) : NaN);
-    const whole = v => Math.abs(v / 10 ** power(v) - 1) < 1e-6;
-    const few = ticks.filter(v => v != null && whole(v)).length < 2;
+    const few = sparse(ticks);
     const said = k => (k >= -2 && k <= 3 ? rounded(10 ** k) : "10" + [...String(k)].map(c => RAISED[c]).join(""));
     return ticks.map(v => (v == null ? "" : whole(v) ? said(power(v)) : few ? rounded(v) : ""));
   }
@@ -59,9 +61,9 @@
       scales: { x: { time: false, ...(data.points ? { range: (_, a, b) => [a - 0.04 * (b - a || 1), b + 0.04 * (b - a || 1)] } : {}) }, y: { distr: panel.log ? 3 : 1, ...(panel.level != null ? { range: (_, a, b) => reach(a, b, panel) } : {}) } },
       axes: [
         { show: true, label: last ? data.label : undefined, labelSize: 18, size: 30, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 } },
-        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1 }, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
+        { label: wide ? undefined : panel.label, labelSize: 18, size: 54, font: "11px system-ui, sans-serif", labelFont: "11px system-ui, sans-serif", grid: { stroke: "#e6eaef", width: 1, ...(panel.log ? { filter: ruled } : {}) }, ticks: panel.log ? { filter: ruled } : {}, values: (_, ticks) => (panel.log ? decades(ticks) : ticks.map(rounded)) },
       ],
-      series: [{ label: data.points ? "of" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
+      series: [{ label: data.points ? "case" : data.label, value: (_, v, __, i) => (data.names && i != null ? data.names[i] : rounded(v)) }, ...series],
       hooks: { draw: [...(panel.level != null ? [level(panel.level)] : []), ...(data.mark != null ? [mark(data.mark)] : [])] },
     };
   }
