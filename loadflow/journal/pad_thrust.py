@@ -221,7 +221,7 @@ class PadThrust(PadBearing):
     def _first_gap(
         self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
     ) -> tuple[float, float]:
-        """Gap near which an aligned runner has the wanted force, m, and the force that it has, N."""
+        """Gap near which an aligned runner has the wanted force, m, and its force there, N."""
         nodes = self.row.surface.place(self.row.surface.nodes(4))
         gap = math.sqrt(self._ordinary(film.liquid.viscosity * abs(speed)) / force)
         reach = float(np.hypot(*tilt)) * float(nodes[-1])
