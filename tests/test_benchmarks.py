@@ -8,6 +8,7 @@ import pytest
 
 from benchmarks import common
 from benchmarks.ladder import physics
+from benchmarks.references import ball_inertia
 
 ROOT = common.ROOT
 FOLDERS = ("ladder", "peers", "references", "robustness")
@@ -96,3 +97,12 @@ def test_the_page_of_physics_has_the_numbers_that_are_kept_beside_it():
     assert physics.size_table(physics.joined(kept)) in page
     assert physics.scene_table(kept["scenes"]) in page
     assert physics.run_table(kept["runs"]) in physics.DOC.read_text(encoding="utf-8")
+
+
+def test_what_the_inertia_of_balls_changes_is_shown(capsys):
+    common.show([ball_inertia.change("nrel-5mw", 12.0)], as_json=False)
+    name, *numbers = capsys.readouterr().out.splitlines()
+    assert name == "nrel-5mw, 12 m/s"
+    changes = {line.split()[0]: float(line.split()[1]) for line in numbers}
+    assert changes["pressure"] == pytest.approx(changes["force"] / 3, rel=1e-2)  # p ∝ F^(1/3)
+    assert changes["life"] < 0.0

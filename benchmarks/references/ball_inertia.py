@@ -36,7 +36,7 @@ def change(turbine: str, wind_speed: float) -> dict[str, float | str]:
     moment[0] += SWING * load.turn[0]
     still, turning = (bearing.equilibrium(force, moment, speed=omega) for omega in (0.0, speed))
     told = {"maximum_force": "force", "maximum_pressure": "pressure", "rating_life": "life"}
-    return {"turbine": turbine, "wind_speed": wind_speed, "speed": speed} | {
+    return {"what": f"{turbine}, {wind_speed:g} m/s", "speed": speed} | {
         name: float(getattr(turning, key) / getattr(still, key)) - 1 for key, name in told.items()
     }
 

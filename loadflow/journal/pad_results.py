@@ -212,7 +212,8 @@ class ThrustResult(PadResult):
         What the runner applies to the pads about the first and the second axis, N m.
     gap : float
         Film over the lands on the axis of an aligned runner (its least film), m; over the pivots
-        of pads that tilt.
+        of pads that tilt. Of pads on elastic supports it is told as they stand without load, and is
+        negative where they give way by more than their film.
     tilt : array (2,)
         Rotation of the runner about both axes, rad.
     pad_force : float or array (pads,)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, ClassVar, Unpack
 
 import numpy as np
@@ -71,7 +72,8 @@ class PadThrust(PadBearing):
         ----------
         gap : float
             Film over the flat lands, m, > 0: the least film of an aligned runner, that on the axis
-            of a tilted one. Of pads that tilt, the film over their pivots.
+            of a tilted one. Of pads that tilt, the film over their pivots. Pads on elastic supports
+            give way from there, so that it may be 0 and less of these.
         speed : float
             Of the runner, rad/s; < 0 turns it against the order of the profile.
         film : Film or Lubricant
@@ -108,12 +110,11 @@ class PadThrust(PadBearing):
             finite("velocity", velocity),
         )
         turned = finite("tilt", tilt, 2)
-        require(gap > 0, "gap", gap, "must be > 0 m")
-        assembly = self._assembly(film, gap, speed, velocity, alike=not turned.any())
+        thick = self._thick("gap", gap, film, speed)
+        assembly = self._assembly(film, gap, thick, speed, velocity, alike=not turned.any())
         limits = limits_of(control)
-        state = self._held(
-            assembly, np.array([0.0, 0.0, 0.0, *turned]), velocity, gap, speed, limits
-        )
+        place = np.array([0.0, 0.0, 0.0, *turned])
+        state = self._held(assembly, place, velocity, gap, thick, speed, limits)
         state = answered(f"gap {gap:.6g} m, ω = {speed:.6g} rad/s", assembly, state, limits)
         return self._result(assembly, state, gap, speed)
 
@@ -165,11 +166,14 @@ class PadThrust(PadBearing):
         head = f"F = {force:.6g} N at ω = {speed:.6g} rad/s"
         limits = limits_of(control)
         self._check_load(head, speed)
-        first = self._first_gap(head, force, speed, film, turned, limits)
+        thick, carried = self._on_rigid_supports()._first_gap(
+            head, force, speed, film, turned, limits
+        )
+        first = thick - carried * self._softness
         alike = moment is None and not turned.any()
-        assembly = self._assembly(film, first, speed, 0.0, alike)
+        assembly = self._assembly(film, first, thick, speed, 0.0, alike)
         place = np.array([0.0, 0.0, 0.0, *turned])
-        start = self._held(assembly, place, 0.0, first, speed, limits)
+        start = self._held(assembly, place, 0.0, first, thick, speed, limits)
         state = assembly.equilibrium([start], wanted, free, limits)
         return self._result(assembly, answered(head, assembly, state, limits), first, speed)
 
@@ -180,13 +184,15 @@ class PadThrust(PadBearing):
     def _films_at(
         self, film: Film, place: float, tilt: Array, speeds: Array, free: Rows, control: Control
     ) -> tuple[Assembly, AssemblyState]:
-        require(place > 0, "start", place, "must be > 0 m")
         alike, first = free.size == self._shifts.size and not tilt.any(), float(speeds[0])
-        assembly = self._assembly(film, place, float(np.abs(speeds).max()), 0.0, alike)
+        thick = self._thick("start", place, film, first)
+        assembly = self._assembly(film, place, thick, float(np.abs(speeds).max()), 0.0, alike)
         for member in assembly.members:
             member.film.set_speed(first)
         position = np.array([0.0, 0.0, 0.0, *tilt])
-        return assembly, self._held(assembly, position, 0.0, place, first, limits_of(control))
+        return assembly, self._held(
+            assembly, position, 0.0, place, thick, first, limits_of(control)
+        )
 
     def _named(self, path: xr.Dataset, place: float) -> xr.Dataset:
         about = {"units": "m", "long_name": "film over the lands on the axis"}
@@ -214,16 +220,16 @@ class PadThrust(PadBearing):
 
     def _first_gap(
         self, head: str, force: float, speed: float, film: Film, tilt: Array, limits: Limits
-    ) -> float:
-        """Gap near which an aligned runner has the wanted force, m."""
+    ) -> tuple[float, float]:
+        """Gap near which an aligned runner has the wanted force, m, and its force there, N."""
         nodes = self.row.surface.place(self.row.surface.nodes(4))
         gap = math.sqrt(self._ordinary(film.liquid.viscosity * abs(speed)) / force)
         reach = float(np.hypot(*tilt)) * float(nodes[-1])
         gap = max(gap, 2.0 * reach)
         tried: list[tuple[float, float]] = []
         for _ in range(_ROUNDS):
-            assembly = self._assembly(film, gap, speed, 0.0, alike=True)
-            state = self._held(assembly, np.zeros(BODY), 0.0, gap, speed, limits)
+            assembly = self._assembly(film, gap, gap, speed, 0.0, alike=True)
+            state = self._held(assembly, np.zeros(BODY), 0.0, gap, gap, speed, limits)
             load = _axial(assembly, state)
             if not state.converged or self._idle(assembly, state, gap):
                 raise SolverError(f"{head}: {self._reason()}; {load:.4g} N at a gap of {gap:.4g} m")
@@ -235,7 +241,7 @@ class PadThrust(PadBearing):
                 (x0, y0), (x1, y1) = tried[-2:]
                 slope = min((y1 - y0) / (x1 - x0), -0.2) if x1 != x0 else -2.0
             gap *= math.exp(min(2.0, max(-2.0, -tried[-1][1] / slope)))
-        return max(gap, 1.2 * reach)
+        return max(gap, 1.2 * reach), load
 
     def _ordinary(self, drag: float) -> float:
         """Load of ordinary pads times the square of their gap, N m², for a `drag` η ω, Pa."""
@@ -246,6 +252,36 @@ class PadThrust(PadBearing):
         narrow = min(1.0, across / length)
         return _LOAD_NUMBER * drag * radius * length**2 * across * count * narrow**2
 
+    @property
+    def _softness(self) -> float:
+        """How far the supports of the pads give way for each N of all pads, m/N; 0 if rigid."""
+        pivot, pads = self.row.pivot, len(self.row.centres)
+        return 0.0 if pivot is None else 1.0 / (pivot.stiffness * pads)
+
+    def _on_rigid_supports(self) -> Any:
+        """The same on pivots that do not give way along the normal."""
+        pivot = self.row.pivot
+        if pivot is None or not self._softness:
+            return self
+        own: Any = self
+        return replace(own, pivot=replace(pivot, stiffness=math.inf))
+
+    def _thick(self, name: str, gap: float, film: Film, speed: float) -> float:
+        """Film of ordinary pads that their supports let give way from a `gap`, m: where both
+        carry the same, (thick − gap)/softness = ordinary load number/thick².
+
+        Raises
+        ------
+        loadflow.errors.InputError
+            A gap that no film keeps open.
+        """
+        thick, soft = gap, self._softness
+        if soft:
+            lifting = soft * self._ordinary(film.liquid.viscosity * abs(speed))
+            thick = float(np.roots([1.0, -gap, 0.0, -lifting]).real.max())
+        require(thick > 0, name, gap, "must be > 0 m")
+        return thick
+
     def _idle(self, assembly: Assembly, state: AssemblyState, gap: float) -> bool:
         """Whether one of the films carries nothing but rounding, as that of a flat pad."""
         film = assembly.members[0].film
@@ -254,10 +290,11 @@ class PadThrust(PadBearing):
         return least <= _FAINT * ordinary / len(self.row.centres)
 
     def _assembly(
-        self, film: Film, gap: float, speed: float, velocity: float, alike: bool
+        self, film: Film, gap: float, thick: float, speed: float, velocity: float, alike: bool
     ) -> Assembly:
-        rate = abs(speed) + 2.0 * abs(velocity) / gap
-        members = self.row.members(film, gap, gap, speed, rate, alike)
+        """Films around a runner with a `gap`, about as `thick`, m."""
+        rate = abs(speed) + 2.0 * abs(velocity) / thick
+        members = self.row.members(film, thick, gap, speed, rate, alike)
         return Assembly(members, self.row.surface.radius)
 
     def _held(
@@ -266,15 +303,19 @@ class PadThrust(PadBearing):
         position: Array,
         velocity: float,
         gap: float,
+        thick: float,
         speed: float,
         limits: Limits,
     ) -> AssemblyState:
-        """Films at a given position; pads that tilt carry, as many as can."""
+        """Films about as `thick`, m, at a given position; pads that tilt carry, as many as can."""
         states: list[AssemblyState] = []
         moving = np.zeros(BODY)
         moving[2] = velocity
         for lift in LIFTS if self.row.tilting else LIFTS[:1]:
-            pads = [self.row.lifted(gap, speed, lift)] * len(assembly.members)
+            pad = self.row.lifted(thick, speed, lift)
+            if self._softness:
+                pad[0] = thick - gap
+            pads = [pad] * len(assembly.members)
             start = assembly.start(position, pads)
             narrowest = assembly.narrowest(start)
             if narrowest <= 0.0:
@@ -283,7 +324,7 @@ class PadThrust(PadBearing):
                 raise InputError(f"the runner touches the pads: narrowest gap {narrowest:.6g} m")
             start = AssemblyState(position, moving, start.members)
             state = assembly.solve(start, np.zeros(BODY), HELD, limits)
-            if state.converged and not self._idle(assembly, state, gap):
+            if state.converged and not self._idle(assembly, state, thick):
                 return state
             states.append(state)
         return max(states, key=lambda one: (one.converged, _axial(assembly, one)))

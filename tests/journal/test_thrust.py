@@ -8,6 +8,7 @@ import pytest
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Control,
+    DoubleThrustBearing,
     Film,
     GasMixture,
     Guembel,
@@ -190,6 +191,29 @@ def test_elastic_support_gives_way_by_its_load():
     series = 1 / (1 / rigid.stiffness + 1 / (6 * stiffness))
     assert state.stiffness == pytest.approx(series, rel=1e-6)
     assert state.minimum_film == pytest.approx(rigid.minimum_film, rel=1e-8)
+
+
+@pytest.mark.parametrize("stiffness", [1e10, 1e9])  # 67 and 667 µm beside a film of 85 µm
+def test_tilting_pads_may_give_way_by_more_than_their_film(stiffness):
+    force, speed = 4e6, 12.0
+    on_rigid = ThrustBearing(6, 0.5, 0.9, 0.8, pivot=Pivot(0.6)).equilibrium(force, speed, FILM)
+    bearing = ThrustBearing(6, 0.5, 0.9, 0.8, pivot=Pivot(0.6, stiffness=stiffness))
+    state = bearing.equilibrium(force, speed, FILM)
+    assert state.gap == pytest.approx(on_rigid.gap - force / 6 / stiffness, abs=1e-10)
+    assert state.minimum_film == pytest.approx(on_rigid.minimum_film, rel=1e-6)
+    back = bearing.pressure(state.gap, speed, FILM)
+    assert back.force == pytest.approx(force, rel=1e-6)
+    path = bearing.orbit([0.0, 0.01, 0.02], force, speed, FILM)
+    np.testing.assert_allclose(path.gap, state.gap, atol=1e-3 * state.minimum_film)
+    np.testing.assert_allclose(path.minimum_film, state.minimum_film, rtol=1e-3)
+
+
+def test_a_collar_finds_its_place_between_tilting_pads_on_springs():
+    row = ThrustBearing(6, 0.5, 0.9, 0.8, pivot=Pivot(0.6, stiffness=1e10))
+    found = DoubleThrustBearing(row, row, play=3e-4).equilibrium(4e6, 12.0, FILM)
+    assert found.front.force - found.back.force == pytest.approx(4e6, rel=1e-6)
+    alone = row.equilibrium(found.front.force, 12.0, FILM)
+    assert found.gap == pytest.approx(alone.gap, abs=1e-9)
 
 
 @pytest.mark.parametrize(
