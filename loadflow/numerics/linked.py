@@ -7,6 +7,8 @@ from typing import Any
 
 from numba import njit
 
+from loadflow.numerics import kept_kernels  # noqa: F401 - before a kernel is made
+
 LINKED: dict[str, Any] = {"cache": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 """Options of numba for it: ``njit(nogil=True, **LINKED)``.
 

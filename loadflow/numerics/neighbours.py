@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 Array = NDArray[np.float64]
 

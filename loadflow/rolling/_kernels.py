@@ -10,10 +10,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from loadflow.numerics import convergence
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 from loadflow.rolling._line_law import lever_of, ninth_root
 from loadflow.rolling.contacts import (
     FREE,

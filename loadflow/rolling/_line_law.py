@@ -7,8 +7,8 @@ vector units; this root is a guess from the bits of δ and three steps of a seri
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from loadflow.numerics.linked import njit
 from loadflow.rolling.contacts import HEIGHT, NORMAL_R, NORMAL_Z, RADIUS
 
 _GUESS = 5118843878464958409  # bits of δ^(-1/9) where those of δ are 0, put to the middle of ±3 %

@@ -12,9 +12,7 @@ What Python never calls, tests included, has no way in from there (`inner_sectio
 
 from functools import partial
 
-from numba import njit
-
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 _REORDER = {"contract", "reassoc", "nsz", "arcp"}  # sums in any order; infinity and NaN are kept
 _plain = partial(njit, nogil=True, error_model="numpy", fastmath=_REORDER)

@@ -11,10 +11,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 from loadflow.tribology._contact_integral import HIGHEST, LOWEST, PER_UNIT, polynomials
 from loadflow.tribology._flow_coefficients import COEFFICIENTS, PATTERNS
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from loadflow.numerics.linked import njit
 
 _COLUMNS = 256  # numbers of a row that are worked on at once: all rows of them stay in the cache
 _TILE = 32

@@ -10,7 +10,6 @@ from loadflow.journal import Film, Groove, JournalBearing, Lubricant, Supply, Tu
 from loadflow.journal.cavitation import GasMixture
 from loadflow.journal.contact import Contact
 from loadflow.journal.line import Line
-from loadflow.journal.models.composed_film import SmoothFilm
 from loadflow.journal.models.composed_model import build
 from loadflow.journal.shells import LocalShell
 from loadflow.tribology.asperities import AsperityContact
@@ -39,11 +38,3 @@ def kinds_of(film):
 def test_an_effect_asks_for_no_loops_of_its_own(effect):
     """Compiling the loops takes half a minute."""
     assert kinds_of(replace(FILM, **EFFECTS[effect])) == kinds_of(FILM)
-
-
-def test_kernels_that_were_compiled_for_smooth_films_alone_answer_no_film():
-    """Lists of them on disk name `SmoothFilm`; as a second name of `Composed`, they would."""
-    film, _ = kinds_of(FILM)
-    smooth = SmoothFilm(*build(BEARING, FILM, np.array([2.0]), Line()).film)
-    assert typeof(smooth).fields == film.fields
-    assert typeof(smooth) != film

@@ -5,10 +5,9 @@ Units are those of `_kernels`; its `balance` sums up the same flows.
 
 from __future__ import annotations
 
-from numba import njit
-
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film._kernels import H3, E, G
+from loadflow.numerics.linked import njit
 
 
 @njit(cache=True, nogil=True)

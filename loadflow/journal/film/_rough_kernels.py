@@ -7,9 +7,7 @@ clearances, and so is the roughness s.
 
 from __future__ import annotations
 
-from numba import njit
-
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 from loadflow.tribology import kernels as laws
 
 LEAST = 1e-3  # mean gap over the roughness: valleys stay open under any load

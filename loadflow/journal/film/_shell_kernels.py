@@ -7,10 +7,9 @@ below, each where the growing cell is.
 
 from __future__ import annotations
 
-from numba import njit
-
 from loadflow.journal.film._gap_kernels import cell_terms, resistance
 from loadflow.journal.film._kernels import CELL3, FILL, H3, E, G, P
+from loadflow.numerics.linked import njit
 
 ITSELF, BEFORE, AFTER, INNER, OUTER = range(5)
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from numba import njit
-
 from loadflow.journal.cavitation import DLOAD, LOAD, P
 from loadflow.journal.film._kernels import H3, HINV, HM, E, G
+from loadflow.numerics.linked import njit
 
 
 @njit(cache=True, nogil=True)

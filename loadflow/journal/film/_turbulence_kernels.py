@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from loadflow.numerics.linked import njit
 
 ALONG, ACROSS, SHEAR = range(3)
 _SIZES = (0.0136 / 12.0, 0.0043 / 12.0, 0.0012)

@@ -17,10 +17,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from loadflow.numerics import convergence
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 is_small = njit(nogil=True, **LINKED)(convergence.is_small)
 stalled = njit(nogil=True, **LINKED)(convergence.stalled)

@@ -41,8 +41,6 @@ from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_grooves, unfed
 from loadflow.journal.models._touch_kernels import touch
 from loadflow.journal.models.shared_sides import COORDINATES, SHAFT
-from loadflow.journal.models.shared_sides import Shared as Shared  # kernels compiled before ask
-from loadflow.journal.models.shared_sides import Side as Side  # for both here
 from loadflow.journal.models.slow_heat import lighter, slow_heat
 from loadflow.numerics.references import refer
 

@@ -274,10 +274,6 @@ class ShelledFilm(Composed):
     """One in a shell that gives way all over, too."""
 
 
-class SmoothFilm(Composed):
-    """No film is one: it tells kernels apart that were compiled before, in their lists on disk."""
-
-
 class ComposedWork(NamedTuple):
     """Work arrays of one film of nx cells around, each with m unknowns in L lanes.
 

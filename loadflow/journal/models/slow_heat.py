@@ -11,14 +11,13 @@ from __future__ import annotations
 from typing import Any, NamedTuple, cast
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film_model import Film
 from loadflow.journal.heat import HOTTEST, Heat
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 Array = NDArray[np.float64]
 

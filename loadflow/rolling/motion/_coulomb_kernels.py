@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 _GLIDING, _GRIPPING, _RESTING = 0, 1, 2  # states of a roller: slips, at ideal spin, at rest
 

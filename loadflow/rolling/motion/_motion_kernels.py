@@ -6,9 +6,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 from loadflow.rolling.friction import rolling_resistance
 from loadflow.rolling.friction.rolling_resistance import ELASTIC_POWER
 from loadflow.tribology import asperities, contact_film, traction

@@ -11,9 +11,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
-from loadflow.numerics.linked import LINKED, bare
+from loadflow.numerics.linked import LINKED, bare, njit
 from loadflow.rolling._line_law import ninth_root
 
 ARM, GAP, STIFFNESS = range(3)

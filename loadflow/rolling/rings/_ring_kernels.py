@@ -14,10 +14,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
 from loadflow.numerics.lanes import LANES, put, spread, take
-from loadflow.numerics.linked import LINKED, bare, contracted
+from loadflow.numerics.linked import LINKED, bare, contracted, njit
 from loadflow.rolling._kernels import rounding_level, stalled
 from loadflow.rolling.contacts import FREE, GAP, NORMAL_R, NORMAL_Z, POINT, STIFFNESS
 from loadflow.rolling.rings._line_kernels import line_contacts

@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit, typeof
+from numba import typeof
 
 from loadflow.numerics.entries import Entry, enter
-from loadflow.numerics.linked import LINKED, bare
+from loadflow.numerics.linked import LINKED, bare, njit
 from loadflow.rolling._kernels import cholesky_solve, is_small, rounding_level, stalled
 from loadflow.rolling._kernels import solve_series as rigid_series
 from loadflow.rolling.contacts import POINT

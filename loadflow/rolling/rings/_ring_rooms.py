@@ -9,11 +9,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
 from loadflow.numerics.lanes import LANES, lanes_for
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 from loadflow.rolling.contacts import Array
 
 

@@ -10,10 +10,9 @@ difference of both harmonics, and serve all pairs of unknowns.
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
 from loadflow.numerics.lanes import LANES, put, spread, take
-from loadflow.numerics.linked import LINKED, bare, contracted
+from loadflow.numerics.linked import LINKED, bare, contracted, njit
 from loadflow.rolling.contacts import POINT
 from loadflow.rolling.rings._ring_factor import factorise
 from loadflow.rolling.rings._ring_kernels import add_multiple, gather

@@ -6,9 +6,8 @@ a jump between them.
 """
 
 import numpy as np
-from numba import njit
 
-from loadflow.numerics.linked import LINKED
+from loadflow.numerics.linked import LINKED, njit
 
 from .. import slots as k
 from .._compile import part

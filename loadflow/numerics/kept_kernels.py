@@ -1,0 +1,117 @@
+"""Where compiled kernels are kept on the disk, and when a kept one is out of date.
+
+numba compiles into a kernel what it calls and the constants that it names, also those of other
+files, but looks at its own file alone when it asks whether a kept one still holds: after an update
+old code could answer. Here the state of all these files is part of the name under which a kernel is
+kept, and kernels kept of another state of its file are removed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from numba.core.caching import FunctionCache
+
+_ROOT = Path(__file__).parents[1]
+_IMPORT = re.compile(r"^from (\.*)([\w.]*) import (\([^)]*\)|.*)", re.MULTILINE)
+_COMPILES = {"linked.py", "_compile.py"}  # from these come the decorators of kernels
+
+
+class KernelPlace:
+    """Where kernels of one file are kept; of the kind that numba calls a cache locator.
+
+    Parameters
+    ----------
+    chosen : numba cache locator
+        What numba itself would choose; it says the folder.
+    file : path
+        File of the kernel.
+    """
+
+    def __init__(self, chosen: Any, file: Path) -> None:
+        self._chosen = chosen
+        self._state = state_of(file)
+
+    def get_cache_path(self) -> str:
+        """Folder."""
+        return str(self._chosen.get_cache_path())
+
+    def get_source_stamp(self) -> str:
+        """State of the file of the kernel and of what it rests on."""
+        return self._state
+
+    def get_disambiguator(self) -> str:
+        """Part of the name of the kept files: line of the kernel and state."""
+        return f"{self._chosen.get_disambiguator()}-{self._state}"
+
+    def ensure_cache_path(self) -> None:
+        """Make the folder; an `OSError` where that cannot be."""
+        self._chosen.ensure_cache_path()
+
+    @classmethod
+    def from_function(cls, function: Callable[..., Any], file: str) -> KernelPlace | None:
+        """Place of a kernel of this package; None of others, and where numba finds no folder."""
+        path = Path(file)
+        if not path.is_relative_to(_ROOT) or not path.is_file():
+            return None
+        for kind in _BY_NUMBA:
+            chosen = kind.from_function(function, file)
+            if chosen is not None:
+                _remove_outdated(Path(chosen.get_cache_path()), path)
+                return cls(chosen, path)
+        return None
+
+
+@cache
+def state_of(file: Path) -> str:
+    """Digest of a file with kernels and of the files of this package that it rests on.
+
+    Those are the files that it imports from, and again those of each of them that has kernels.
+    """
+    found, ahead = {file}, [file]
+    while ahead:
+        for used in _imports(ahead.pop()):
+            if used not in found:
+                found.add(used)
+                if _COMPILES & {each.name for each in _imports(used)}:
+                    ahead.append(used)
+    told = hashlib.sha256()
+    for each in sorted(found):
+        told.update(f"{each.relative_to(_ROOT).as_posix()}\n{_text(each)}\n".encode())
+    return told.hexdigest()[:12]
+
+
+@cache
+def _text(file: Path) -> str:
+    return file.read_text(encoding="utf-8")
+
+
+@cache
+def _imports(file: Path) -> tuple[Path, ...]:
+    """Files of this package from which one imports at its top."""
+    found = []
+    for dots, module, names in _IMPORT.findall(_text(file)):
+        start = file.parents[len(dots) - 1] if dots else _ROOT.parent
+        place = start.joinpath(*module.split(".")) if module else start
+        inside = [place / f"{name}.py" for name in re.findall(r"\w+", names)]
+        found += [place.with_suffix(".py"), *inside]
+    return tuple(path for path in found if path.is_relative_to(_ROOT) and path.is_file())
+
+
+@cache
+def _remove_outdated(folder: Path, file: Path) -> None:
+    """Remove kernels of other states of a file; another process may have done so."""
+    for kept in folder.glob(f"{file.stem}.*.nb[ic]"):
+        if f"-{state_of(file)}." not in kept.name:
+            with suppress(OSError):
+                kept.unlink()
+
+
+_BY_NUMBA = tuple(FunctionCache._impl_class._locator_classes)
+FunctionCache._impl_class._locator_classes = [KernelPlace, *_BY_NUMBA]

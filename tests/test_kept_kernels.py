@@ -1,0 +1,96 @@
+"""Kernels that are kept on the disk answer only for the code that they were compiled from."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import loadflow
+from loadflow.journal.solvers import _newton_kernels
+from loadflow.numerics import kept_kernels
+from loadflow.wind import _kernels as wind_kernels
+
+ROOT = Path(loadflow.__file__).parent
+SOLVER = ROOT / "journal/solvers/_newton_kernels.py"
+
+
+@pytest.fixture
+def edit(monkeypatch):
+    """Read one file of the package as if a line were added to it."""
+    read = kept_kernels._text.__wrapped__
+
+    def forget():
+        for known in (kept_kernels._text, kept_kernels._imports, kept_kernels.state_of):
+            known.cache_clear()
+
+    def edited(name):
+        def text(file):
+            return read(file) + ("\nADDED = 1\n" if file == ROOT / name else "")
+
+        forget()
+        monkeypatch.setattr(kept_kernels, "_text", text)
+
+    yield edited
+    monkeypatch.undo()
+    forget()
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "journal/solvers/_newton_kernels.py",  # itself
+        "journal/film/_gap_kernels.py",  # what it calls
+        "tribology/_contact_integral.py",  # constants of what that calls
+    ],
+)
+def test_a_change_of_what_a_kernel_is_compiled_from_makes_kept_ones_outdated(name, edit):
+    before = kept_kernels.state_of(SOLVER)
+    edit(name)
+    assert kept_kernels.state_of(SOLVER) != before
+
+
+def test_a_change_elsewhere_keeps_kernels(edit):
+    before = kept_kernels.state_of(SOLVER)
+    edit("wind/_kernels.py")
+    assert kept_kernels.state_of(SOLVER) == before
+
+
+@pytest.mark.parametrize("kernel", [_newton_kernels.solve, wind_kernels.time_first])
+def test_numba_keeps_kernels_under_the_state_of_their_code(kernel):
+    kept = kernel._cache._impl
+    file = Path(kernel.py_func.__code__.co_filename)
+    assert isinstance(kept.locator, kept_kernels.KernelPlace)
+    assert f"-{kept_kernels.state_of(file)}.py" in kept.filename_base
+
+
+def test_kernels_of_another_state_are_removed_and_those_of_other_files_stay(tmp_path):
+    state = kept_kernels.state_of(SOLVER)
+    names = {
+        f"_newton_kernels.solve-40-{state}.py311.nbi",
+        f"_newton_kernels.solve-40-{state}.py311.1.nbc",
+        "_kernels.solve-40-0123456789ab.py311.nbi",
+        "_newton_kernels.cpython-311.pyc",
+    }
+    outdated = {
+        "_newton_kernels.solve-40-0123456789ab.py311.nbi",
+        "_newton_kernels.solve-40-0123456789ab.py311.1.nbc",
+        "_newton_kernels.solve-38.py311.nbi",  # of a version that kept them by their line alone
+    }
+    for name in names | outdated:
+        (tmp_path / name).touch()
+    kept_kernels._remove_outdated.__wrapped__(tmp_path, SOLVER)
+    assert {path.name for path in tmp_path.iterdir()} == names
+
+
+def test_functions_of_other_packages_are_kept_as_numba_does():
+    assert kept_kernels.KernelPlace.from_function(edit, __file__) is None
+
+
+def test_all_kernels_are_compiled_by_the_module_that_says_how_they_are_kept():
+    takes = re.compile(r"^from numba import .*\bn?jit\b|^import numba$", re.MULTILINE)
+    found = {
+        file.relative_to(ROOT).as_posix()
+        for file in ROOT.rglob("*.py")
+        if takes.search(file.read_text(encoding="utf-8"))
+    }
+    assert found == {"numerics/linked.py"}
