@@ -89,7 +89,7 @@ def _cells(options: Film, half: bool) -> tuple[int, int]:
     return options.cells if half or options.law.smooth or options.grid else FULL_GRID
 
 
-def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> Mesh:
+def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedMesh:
     """Cells of a film in a bore of any shape, of `half` of its width or all of it."""
     bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
     graded = options.grading == "graded" or (options.grading == "auto" and not options.law.smooth)

@@ -98,8 +98,8 @@ def _between_segments(split: _Split, edges: Array, around: Array) -> _Split:
     middle = (0.5 * (edges[1:] + edges[:-1]) - around[0]) % (2.0 * np.pi)
     owner = np.searchsorted(around - around[0], middle) - 1
     shapes, pressed = (np.zeros((len(split.shapes), count, split.shapes.shape[2])) for _ in "12")
-    np.add.at(shapes, (slice(None), owner), split.shapes * width[:, None])
-    np.add.at(pressed, (slice(None), owner), split.pressed)
+    np.add.at(shapes.swapaxes(0, 1), owner, (split.shapes * width[:, None]).swapaxes(0, 1))
+    np.add.at(pressed.swapaxes(0, 1), owner, split.pressed.swapaxes(0, 1))
     return _Split(split.local, shapes / np.diff(around)[:, None], pressed)
 
 
