@@ -90,13 +90,13 @@ class CavitationLaw:
         """Pressure, Pa, below which the unknown of a cell is its fill alone; -inf: no such kink."""
         return self.floor if self.keeps_fill and not self.smooth else -math.inf
 
-    def filling(self, scale: float) -> tuple[float, float]:
+    def filling(self, scale: float, limited: bool = True) -> tuple[float, float]:
         """The kink, and the most that a cell below it may become in one Newton step, Pa.
 
         What is above the kink of a cell that fills is oil that has no room, and no pressure: that
-        would be a thousand times too much.
+        would be a thousand times too much. Where steps are not `limited` no cell is below a kink.
         """
-        return self.kink, self.kink + FILLS * scale
+        return (self.kink, self.kink + FILLS * scale) if limited else (-math.inf, 0.0)
 
     @property
     def numbers(self) -> tuple[float, ...]:

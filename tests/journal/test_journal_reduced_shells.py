@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
 from loadflow.journal import (
     Control,
     Feet,
@@ -27,6 +26,7 @@ from loadflow.journal import (
     housing_influence,
 )
 from loadflow.journal.film.compliance import compliance_of
+from loadflow.journal.film.discretise import mesh_in_bore
 from loadflow.journal.film.gap_mesh import shaped_mesh
 from loadflow.journal.models.composed_shell import _split
 from loadflow.journal.models.shared_path import follow_shared
@@ -245,8 +245,22 @@ def test_lobes_in_a_shell_are_those_of_the_grid(alone):
     check(*(bearing.equilibrium(0.5 * LOAD, SPEED, film) for film in pair()))
 
 
-def test_what_a_shell_all_over_does_not_go_with_is_named():
-    lobed = JournalBearing(**SIZE, shape=Lobes(3, preload=0.3))
-    given = replace(REDUCED, grid=(36, 8), shell=MatrixShell(1e-12 * np.eye(36 * 8)))
-    with pytest.raises(InputError, match="known on every grid"):
-        lobed.equilibrium(LOAD, SPEED, given)
+@pytest.mark.parametrize("supply", [None, Supply((Groove(0.9, 0.2, 0.05, 3e5),))])
+def test_an_influence_matrix_in_a_shaped_bore_is_that_of_the_grid(supply, alone):
+    """Of the cells of the grid, which has several in a groove between two lobes."""
+    bearing = JournalBearing(**SIZE, shape=Lobes(2, preload=0.3))
+    films = [replace(film, grid=(72, 16), supply=supply) for film in (REDUCED, FILM)]
+    mesh = mesh_in_bore(bearing, films[1], False)
+    count = mesh.angle.size * mesh.z.size
+    unit = np.eye(count).reshape(count, *mesh.shape)
+    matrix = MatrixShell(
+        compliance_of(SOFT, mesh, bearing.radius).growth(unit).reshape(count, -1).T
+    )
+    few, fine, cylinder = (
+        bearing.equilibrium(0.5 * LOAD, SPEED, film)
+        for film in (*(replace(film, shell=matrix) for film in films), films[0])
+    )
+    for name, most in zip(NAMES, (5e-3, 5e-3, 0.015, 6e-3)):
+        assert float(getattr(few, name)) == pytest.approx(float(getattr(fine, name)), rel=most)
+        assert float(getattr(few, name)) == pytest.approx(float(getattr(cylinder, name)), rel=1e-2)
+    assert few.shell_deformation == pytest.approx(fine.shell_deformation, rel=0.03)

@@ -84,6 +84,21 @@ def cylindrical_film(
     return gap, film
 
 
+def _cells(options: Film, half: bool) -> tuple[int, int]:
+    """Cells around and across of a film in a bore of any shape."""
+    return options.cells if half or options.law.smooth or options.grid else FULL_GRID
+
+
+def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedMesh:
+    """Cells of a film in a bore of any shape, of `half` of its width or all of it."""
+    bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
+    graded = options.grading == "graded" or (options.grading == "auto" and not options.law.smooth)
+    turns, places = relief_marks(bore.relief, bore.radius, bore.width)
+    around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
+    marks = (*turns, *around), (*places, *ends, *-ends)
+    return shaped_mesh(bearing.width_ratio, grid, half, graded, bore.segments, *marks)
+
+
 def shaped_film(
     bearing: JournalGeometry, options: Film, straight: bool, crowd: tuple[float, ...] = ()
 ) -> tuple[ShapedGap, DiscreteFilm]:
@@ -91,7 +106,7 @@ def shaped_film(
 
     Cells crowd at the angles `crowd`, rad.
     """
-    law, supply, contact = options.law, options.supply, options.contact
+    contact = options.contact
     require(
         options.inlet != "widest gap",
         "inlet",
@@ -103,14 +118,8 @@ def shaped_film(
     options.check_oil(pressure)
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
     half = half and (options.shell is None or options.shell.symmetric_on(options.cells[1]))
-    grid = options.cells if half or law.smooth or options.grid else FULL_GRID
-    graded = options.grading == "graded" or (options.grading == "auto" and not law.smooth)
-    turns, places = relief_marks(bore.relief, bore.radius, bore.width)
-    around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
-    ratio = bearing.width_ratio
-    mesh = shaped_mesh(
-        ratio, grid, half, graded, bore.segments, (*turns, *around), (*places, *ends, *-ends)
-    )
+    ratio, grid = bearing.width_ratio, _cells(options, half)
+    mesh = mesh_in_bore(bearing, options, half)
     for angle in crowd:
         mesh = crowded(mesh, angle)
     oil = _oil(mesh, options, ratio, bearing.relative_clearance, bore.radius, grid[0])

@@ -122,10 +122,11 @@ class ElasticFilm(DiscreteFilm):
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
         least = self.gap.least_after(start)
-        share, filling = super().step_share(u, columns, weights, way), self.law.filling(self.scale)
+        share = super().step_share(u, columns, weights, way)
+        unlimited = self.law.filling(self.scale, limited=False)
         while share > _SMALLEST:
             trial = u.copy()
-            kernel.correct(trial, columns, share * weights, self.mesh.order, *filling)
+            kernel.correct(trial, columns, share * weights, self.mesh.order, *unlimited)
             self._apply_law(trial)
             place = start + share * (target - start)
             self._grow(place)

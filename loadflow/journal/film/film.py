@@ -370,9 +370,9 @@ class DiscreteFilm:
         """Largest entry of a change of the unknowns over the pressure of the film."""
         return float(np.abs(column).max()) / max(self.scale, float(self.state[LOAD].max()))
 
-    def correct(self, u: Array, columns: Array, weights: Array) -> float:
-        """Apply a Newton step to `u`; returns its largest change over the scale of pressure."""
-        filling = self.law.filling(self.scale)
+    def correct(self, u: Array, columns: Array, weights: Array, fills: bool = False) -> float:
+        """Apply a Newton step to `u`, if it `fills` by the law's `filling`; its largest change."""
+        filling = self.law.filling(self.scale, limited=fills)
         return kernel.correct(u, columns, weights, self.mesh.order, *filling) / self.scale
 
     def relax(self, share: float = 1.0) -> None:

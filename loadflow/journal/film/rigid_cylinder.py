@@ -98,8 +98,8 @@ def as_cylinder(film: DiscreteFilm) -> Cylinder | None:
     known = cast("Cylinder | None", film.whole)
     if known is None:
         known = film.whole = _laid_out(film, gap)
-    now = {"scale": film.scale, "filling": film.law.filling(film.scale), "wedge": film.wedge}
-    return known._replace(flux=flux_of(film), **now)
+    filling = film.law.filling(film.scale)
+    return known._replace(scale=film.scale, filling=filling, wedge=film.wedge, flux=flux_of(film))
 
 
 def _laid_out(film: DiscreteFilm, gap: CylindricalGap) -> Cylinder:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.compliance import Compliance, Harmonic, Modal, Numbers, compliance_of
+from loadflow.journal.film.discretise import mesh_in_bore
 from loadflow.journal.film.mesh import Mesh
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -65,8 +66,14 @@ def shell_of(
     across = _ACROSS if shell.any_grid else options.cells[1] // 2
     half = bearing.width / bearing.diameter
     z_edges = np.linspace(-half if whole else 0.0, half, (2 if whole else 1) * across + 1)
-    around = start + np.append(0.0, np.cumsum(ring.width))
-    split = _split_on(shell, tuple(around.tolist()), tuple(z_edges.tolist()), bearing.radius)
+    around = edges = start + np.append(0.0, np.cumsum(ring.width))
+    of_grid = bool(bearing.shape.segments) and not shell.any_grid
+    if of_grid:
+        mesh = mesh_in_bore(bearing, options, not whole)
+        edges, z_edges = mesh.edges, mesh.z_edges
+    split = _split_on(shell, tuple(edges.tolist()), tuple(z_edges.tolist()), bearing.radius)
+    if of_grid:
+        split = _between_segments(split, edges, around)
     shares, inner = shares_of(nodes, z_edges), nodes.slopes.shape[1]
     for n, beside in enumerate(nodes.joints):  # of no width, in the gap of its inner point
         shares[inner + n] = shares[beside]
@@ -80,6 +87,20 @@ def shell_of(
         True,
         *(_rows(part, nodes.z.size) for part in (shapes, split.pressed @ pressing.T, rubbed)),
     )
+
+
+def _between_segments(split: _Split, edges: Array, around: Array) -> _Split:
+    """A shell on cells around of these `edges`, on columns that have theirs at some of them.
+
+    The grid has several cells in a groove between two segments, a ring one.
+    """
+    width, count = np.diff(edges), around.size - 1
+    middle = (0.5 * (edges[1:] + edges[:-1]) - around[0]) % (2.0 * np.pi)
+    owner = np.searchsorted(around - around[0], middle) - 1
+    shapes, pressed = (np.zeros((len(split.shapes), count, split.shapes.shape[2])) for _ in "12")
+    np.add.at(shapes.swapaxes(0, 1), owner, (split.shapes * width[:, None]).swapaxes(0, 1))
+    np.add.at(pressed.swapaxes(0, 1), owner, split.pressed.swapaxes(0, 1))
+    return _Split(split.local, shapes / np.diff(around)[:, None], pressed)
 
 
 def _rows(values: Array, points: int) -> Array:

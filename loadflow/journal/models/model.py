@@ -197,10 +197,6 @@ def _pairs(
         yield "relief", bearing.relief, pads and uneven, alike
     if film.rung == "reduced" and film.supply is not None:
         yield from _beside_grooves(verb, film, bearing)
-    if film.rung == "reduced" and film.shell is not None and not film.shell.local:
-        cells = 'one that is known on every grid, in a shaped bore on rung = "reduced"'
-        apart = bool(bearing.shape.segments) and not film.shell.any_grid
-        yield "shell", film.shell, apart, cells
     over_area = film.heat is not None and film.heat.over_area
     of_pads = film.heat is not None and film.heat.of_pads
     yield "heat", film.heat, of_pads, "a Heat or FilmHeat: a PadHeat is of thrust bearings"

@@ -92,7 +92,7 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
         if answered:
             return ANSWERED, iteration, residual, allowed, last, count
         way, waits = 0.0, False
-        if free and not ended and film.filling[0] > -np.inf:
+        if free and not ended and not moving and film.filling[0] > -np.inf:
             waits = imbalance(film, place, force, False, load_scale) > WAITS
         if free and not ended:
             x, y = place[0], place[1]
@@ -105,8 +105,9 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
                 way /= max(1.0 - np.hypot(place[0], place[1]), PRESSED)
                 place[0], place[1] = x, y
         if not ended:
-            change = correct(u, columns, film.weights[:number], film.order, *film.filling)
-            change /= film.scale
+            kink = -np.inf if moving else film.filling[0]  # in motion the film before is near
+            weights, most_filled = film.weights[:number], film.filling[1]
+            change = correct(u, columns, weights, film.order, kink, most_filled) / film.scale
             change = way if way > change else change
             gap = 1.0 - np.hypot(place[0], place[1])
             short = change < (QUADRATIC if iteration <= LATE else COARSEST**0.5)

@@ -226,7 +226,7 @@ def solve_film(
         share = film.step_share(u, linear.columns[:1], weights, (position, position))
         if share < _STUCK:
             break
-        change = film.correct(u, linear.columns[:1], share * weights)
+        change = film.correct(u, linear.columns[:1], share * weights, fills=not motion.moves)
         if check.after(iteration, change, u, position, linear):
             return check.solution(u, position, linear, True, iteration)
     return check.unanswered(u, position, linear, iteration)
@@ -250,8 +250,8 @@ def solve_equilibrium(
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
 
-    Where a law has a kink, the shaft waits while cells that count as full lack far too much: it
-    would follow a load that is not there, and move the rupture to and fro.
+    Where a law has a kink, a shaft at rest waits while cells that count as full lack far too much:
+    it would follow a load that is not there, and move the rupture to and fro.
     """
     u, whole = u.copy(), as_cylinder(film)
     if whole is not None and free is EVERY:
@@ -261,7 +261,8 @@ def solve_equilibrium(
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     pressing, most = 0, math.inf
-    patience = WAITS * flux_of(film) if film.law.kink > -math.inf else math.inf
+    # in motion the film before is near, and its rupture
+    patience = math.inf if moving or film.law.kink == -math.inf else WAITS * flux_of(film)
     if film.contact is not None and film.elastic:
         most = _OVERLOADED * film.load_scale(force)
     for iteration in range(1, max_iterations + 1):
@@ -287,7 +288,8 @@ def solve_equilibrium(
         pressing = pressing + 1 if film.contact and way < _STUCK * length else 0
         if share < _STUCK or stuck or pressing > _PRESSING or not math.isfinite(way):
             break
-        change = max(film.correct(u, linear.columns, weights), way / max(gap, PRESSED))
+        change = film.correct(u, linear.columns, weights, fills=not moving)
+        change = max(change, way / max(gap, PRESSED))
         position, gap = target, film.gap.narrowest(target)
         if not gap > PRESSED and not film.elastic:
             break

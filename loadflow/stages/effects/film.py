@@ -152,12 +152,6 @@ SHELL = Effect(
     larger=no_bound_at_standstill,
     smaller=15.0,  # what tilt and shell do at the ends lasts for less than the indicated case
     rungs=("grid", "reduced"),
-    partly=(
-        (
-            "reduced",
-            "any; a matrix in a circular bore",
-        ),
-    ),
     own_kernels=True,
 )
 
