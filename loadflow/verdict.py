@@ -10,6 +10,10 @@ from typing import Any, Literal
 import numpy as np
 import xarray as xr
 
+from loadflow.quantities import fitting_unit, four_digits, scale_of
+
+_FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
+
 
 @dataclass(frozen=True)
 class Verdict:
@@ -81,15 +85,31 @@ class Verdict:
         return "holds" if self.margin >= 0 or self.value == self.limit else "broken"
 
     @property
+    def numbers(self) -> tuple[str, str, str]:
+        """Value, limit and margin with the unit in which an engineer reads them; "" if unknown."""
+        known = [abs(one) for one in (self.value, self.limit) if math.isfinite(one)]
+        size = max(known, default=0.0)
+        film = self.unit == "m" and size < _FILMS
+        factor, unit = (1e6, "µm") if film else fitting_unit(self.unit, size)
+        zero, scale = scale_of(unit.strip("–"))
+        value, limit = self.value - zero, self.limit - zero
+        told = ((value, scale), (limit, scale), (self.margin, unit.strip("–")))
+        found = (
+            "" if math.isnan(one) else f"{four_digits(factor * one)} {name}".rstrip()
+            for one, name in told
+        )
+        return next(found), next(found), next(found)
+
+    @property
     def sentence(self) -> str:
         """All of it as a sentence."""
-        unit = f" {self.unit}" if self.unit else ""
-        found = "unknown" if math.isnan(self.value) else f"{self.value:.4g}{unit}"
+        value, limit, _ = self.numbers
         source = f" ({self.source})" if self.source else ""
         at = f", {self.case}" if self.case else ""
         at += f" at {self.time:.1f} s" if math.isfinite(self.time) else ""
         note = f"; {self.note}" if self.note else ""
-        asked = "" if math.isnan(self.limit) else f", must be {self.sense} {self.limit:.4g}{unit}"
+        asked = f", must be {self.sense} {limit}" if limit else ""
+        found = value or "unknown"
         return f"{self.subject}: {self.quantity} {found}{at}{asked}{source}: {self.answer}{note}"
 
     def as_dict(self) -> dict[str, Any]:

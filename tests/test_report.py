@@ -21,7 +21,7 @@ from loadflow.report import Chart, Panel
 from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed, seed_verdicts
-from loadflow.running.answers_page import answer_row
+from loadflow.running.answers_page import answer_row, without_film
 from loadflow.running.report_page import _spread, _took, report_is_current, write_report
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
 from loadflow.running.wear_page import wear_section
@@ -396,6 +396,27 @@ def test_the_report_begins_with_how_many_limits_hold_and_which_do_not(page):
     points = re.findall("<li>(.*?)</li>", overview[: overview.index("<table")])
     assert any(one.startswith("Not accurate enough: ") for one in points)
     assert sum("±" in one and "smallest film" in one for one in points) <= 1  # one interval each
+
+
+def test_films_that_end_where_surfaces_touch_are_told_beside_the_answers():
+    touching = [[3, 2, 0], [0, 0, 0]]
+    table = xr.Dataset(
+        {"in_contact": (("bearing", "case"), touching)},
+        {"bearing": ["N", "N2"], "case": ["a", "b", "c"]},
+    )
+    scene = make_scene({"name": "x", "shaft": {"two_point": {}}})
+    said = without_film(scene, {"journal": table})
+    assert said.startswith("Where surfaces touch there is no film (journal N, 5 samples in 2 load")
+    assert "N2" not in said
+    rough = {"asperities": {"roughness": 1e-6, "contact_modulus": 1e11, "factor": 1e-3}}
+    scene = make_scene(
+        {
+            "name": "x",
+            "shaft": {"two_point": {}},
+            "journal": {"contact": rough, "edge_pressure": 0.0},
+        }
+    )
+    assert without_film(scene, {"journal": table}) == ""  # asperities carry: all are answered
 
 
 def test_what_a_run_took_is_told_in_minutes_where_it_is_long():

@@ -75,6 +75,17 @@ def test_a_verdict_says_value_limit_margin_source_and_what_governs():
     assert (told.answer, told.holds) == ("no limit", True)
 
 
+def test_verdicts_are_said_in_the_units_of_engineers():
+    film = Verdict("a", "smallest film", 0.0, 1.38e-5, "at least", "m")
+    assert film.numbers == ("0 µm", "13.8 µm", "-13.8 µm")
+    assert "smallest film 0 µm, must be at least 13.8 µm: broken" in film.sentence
+    assert Verdict("a", "p", 4.916e7, 7e6, "at most", "Pa").numbers[:2] == ("49.16 MPa", "7 MPa")
+    warm = Verdict("a", "T", 313.15, 348.15, "at most", "K")
+    assert warm.numbers == ("40 °C", "75 °C", "35 K")
+    told = Verdict("a", "force", 1e3, np.nan, "at most", "N")
+    assert told.numbers == ("1 kN", "", "")
+
+
 def test_verdicts_survive_the_file(tmp_path):
     rows = [Verdict("a", "b", 1.0, 2.0, "at most", note="é"), Verdict("c", "d", 3, 2, "at least")]
     to_dataset(rows).to_netcdf(tmp_path / "v.h5", engine="h5netcdf")

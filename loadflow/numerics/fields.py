@@ -47,7 +47,7 @@ def check_fields(instance: Any) -> None:
                 raise InputError(f"{name}: must be {_words(bound)}, got {value!r}{more}")
 
 
-def in_kelvin(name: str, value: object, lowest: object) -> str:
+def in_kelvin(name: str, value: Any, lowest: Any) -> str:
     """Say what a temperature below the `lowest` is if it is meant in °C; empty for anything else.
 
     Examples

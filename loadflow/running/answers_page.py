@@ -3,24 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
+from dataclasses import replace
 
 import numpy as np
 import xarray as xr
 
 from loadflow.planning.budget import Answer
-from loadflow.quantities import fitting_unit, four_digits, percent
+from loadflow.quantities import fitting_unit, four_digits, load_cases, percent
 from loadflow.report import Table
 from loadflow.report.moments import Moment, links_to
+from loadflow.scene.scene import Scene
 from loadflow.studies.tolerances import Band
 
 
 def answer_tables(
-    found: list[Answer], tables: dict[str, xr.Dataset], shown: Collection[str] = ()
+    scene: Scene, found: list[Answer], tables: dict[str, xr.Dataset], shown: Collection[str] = ()
 ) -> Iterator[Table]:
     """Each answer with its interval, band and error, then what tolerances do to each.
 
     Parameters
     ----------
+    scene : Scene
+        As it ran.
     found : list of Answer
         Of the run.
     tables : dict
@@ -29,8 +33,31 @@ def answer_tables(
         Anchors of the moments that the page shows, to lead to.
     """
     if found:
-        yield _answers(found, shown)
+        yield replace(_answers(found, shown), note=without_film(scene, tables))
     yield from _tolerances(tables)
+
+
+def without_film(scene: Scene, tables: dict[str, xr.Dataset]) -> str:
+    """Say which films end where surfaces touch, so that answers leave that out; empty if none.
+
+    Asperities that a scene describes carry there, and their samples are answered.
+    """
+    told = []
+    for stage in ("journal", "thrust"):
+        if "in_contact" not in tables.get(stage, ()):
+            continue
+        for name in tables[stage]["bearing"].values.tolist():
+            own = tables[stage]["in_contact"].sel(bearing=name)
+            films = stage == "thrust" or scene.journal.at(name).contact is None
+            if films and (own > 0).any():
+                cases = load_cases(int((own > 0).sum()))
+                told.append(f"{stage} {name}, {int(own.sum())} samples in {cases}")
+    if not told:
+        return ""
+    return (
+        f"Where surfaces touch there is no film ({'; '.join(told)}): the answers are those of the "
+        "other samples. The verdicts count it."
+    )
 
 
 def moment_of(one: Answer) -> Moment | None:

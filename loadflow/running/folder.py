@@ -305,7 +305,8 @@ def _clear(
     if others and not overwrite and stage.sample is None:  # a sample is cheap: made anew
         raise InputError(
             f"{folder}: holds {len(others)} finished parts of the stage {stage.name!r} that were "
-            "made with other settings or inputs; give the run another name, or overwrite it"
+            "made with other settings or inputs; give the run another name (--name), or overwrite "
+            "it (--overwrite)"
         )
     for path in others:
         path.unlink()

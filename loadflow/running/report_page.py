@@ -236,7 +236,7 @@ def _overview(
     caption = "Every load case over wind speed."
     pictures: list[Shown] = [_shaft_sketch(scene)]
     pictures += over_wind_speed(tables.get("journal"), tables.get("rolling"), caption)
-    notes = [*answer_tables(found, tables, shown), *verdict_table(tables, shown)]
+    notes = [*answer_tables(scene, found, tables, shown), *verdict_table(tables, shown)]
     notes += lifetime_table(tables)
     notes += energy_table(tables)
     if failures:

@@ -7,10 +7,9 @@ from collections.abc import Collection, Iterator
 import numpy as np
 import xarray as xr
 
-from loadflow.quantities import HOURS_PER_YEAR, fitting_unit, four_digits, scale_of
+from loadflow.quantities import HOURS_PER_YEAR, four_digits
 from loadflow.report import Table
 from loadflow.report.moments import Moment, links_to, place_of
-from loadflow.running.answers_page import largest
 from loadflow.verdict import Verdict, from_dataset
 
 
@@ -60,26 +59,14 @@ def moment_of(verdict: Verdict) -> Moment | None:
     return Moment(verdict.case, verdict.time, place) if verdict.case else None
 
 
-_FILMS = 1e-2  # m: lengths below are told in µm, as films are everywhere
-
-
 def _verdict_row(verdict: Verdict) -> list[str]:
-    limit, moment = "", moment_of(verdict)
-    size = largest(verdict.value, verdict.limit)
-    film = verdict.unit == "m" and size < _FILMS
-    factor, unit = (1e6, "µm") if film else fitting_unit(verdict.unit, size)
-    unit = "" if unit == "–" else unit
-    zero, scale = scale_of(unit)
-    if np.isfinite(verdict.limit):
-        sign = "≤" if verdict.sense == "at most" else "≥"
-        limit = f"{sign} {four_digits(factor * (verdict.limit - zero))} {scale}".rstrip()
-    value, margin = (
-        "-" if np.isnan(number) else f"{four_digits(factor * number)} {one}".rstrip()
-        for number, one in ((verdict.value - zero, scale), (verdict.margin, unit))
-    )
+    moment = moment_of(verdict)
+    value, limit, margin = verdict.numbers
+    sign = "≤" if verdict.sense == "at most" else "≥"
     at = "" if moment is None else moment.within
-    said = (limit, margin, verdict.answer, at, verdict.source, verdict.note)
-    return [verdict.subject, verdict.quantity, value, *said]
+    said = (f"{sign} {limit}" if limit else "", margin or "-", verdict.answer, at)
+    about = (verdict.source, verdict.note)
+    return [verdict.subject, verdict.quantity, value or "-", *said, *about]
 
 
 def lifetime_table(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
