@@ -230,8 +230,8 @@ def _inertia(balls: _Balls, omega: Array, inner: Array, outer: Array) -> tuple[A
     that the inner ring feels none of it.
     """
     ratio = balls.diameter / balls.pitch
-    apart = np.cos(inner - outer)
-    orbit = omega * (apart - ratio * np.cos(outer)) / (1 + apart)
+    # balls roll on both raceways, and do not spin on the outer one
+    orbit = omega * (1 - ratio * np.cos(inner)) / (1 + np.cos(inner - outer))
     tan = np.sin(outer) / (np.cos(outer) + ratio)
     pitch = np.arctan(tan)
     sides = (np.cos(outer) + tan * np.sin(outer)) / (1 + ratio * np.cos(outer))
