@@ -1,6 +1,7 @@
 """Blade-element momentum: the section solver balances, the table stands for it."""
 
 from collections import OrderedDict
+from functools import cache
 
 import numpy as np
 import pytest
@@ -22,8 +23,13 @@ from loadflow.turbines import load_turbine
 from loadflow.wind.field import Field
 
 RIGID = machine(load_turbine("nrel-5mw"), RotorOptions(modes=()))
-TABLED = with_table(RIGID)
 PACKED = ("radius", "chord", "twist", "width")
+
+
+@cache
+def tabled():
+    """With its table of induction, which takes seconds, and none while tests are collected."""
+    return with_table(RIGID)
 
 
 @settings(deadline=None, max_examples=300)
@@ -80,7 +86,7 @@ def test_table_gives_the_induction_within_one_percent_of_the_wind():
         normal, tangential = generator.uniform(3, 25), generator.uniform(15, 80)
         _, a, _ = solve(RIGID, i, pitch, normal, tangential, 0.0)
         speed, angle = np.hypot(normal, tangential), np.arctan2(normal, tangential)
-        b, _ = tabulated_induction(TABLED, i, pitch, normal, tangential, speed, angle)
+        b, _ = tabulated_induction(tabled(), i, pitch, normal, tangential, speed, angle)
         worst = max(worst, abs(a - b) * normal / speed)
     assert worst < 0.01
 
