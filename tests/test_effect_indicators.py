@@ -90,11 +90,7 @@ def measured():
 def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_measured(measured):
     """All sizes of the page of physics: single wind speeds, scenes and pipelines."""
     most = [*indicators.moving_most(measured)]
-    wrong = {
-        (one.effect.name, one.place): one.factor
-        for one in most
-        if not one.within and one.effect is not rotor.LATERAL  # no plan leaves it out
-    }
+    wrong = {(one.effect.name, one.place): one.factor for one in most if not one.within}
     assert wrong == {}
     for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, roller_profile.SLICED, rotor.INFLOW):
         assert sum(one.counts for one in most if one.effect is effect) >= 15

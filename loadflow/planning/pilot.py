@@ -174,7 +174,8 @@ def pilot(
     worth = list(_worth_measuring(scene, chosen, known))
     effort = effort or effort_for(chosen, worth, cases)
     brief = brief and not effort.thorough
-    if brief:  # indicators that solve films cost less than what they may settle
+    there = [*concerned(scene, _stages(scene)), *concerned(chosen, _stages(chosen))]
+    if brief and any(one.solves for one in there):  # that costs less than what it may settle
         choice, known = _expected(scene, cases, solving=True)
         chosen = choice.scene
         worth = list(_worth_measuring(scene, chosen, known))
