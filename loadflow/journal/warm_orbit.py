@@ -24,6 +24,7 @@ from loadflow.journal.growing_orbit import growing_orbit
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Model, Steps
+from loadflow.journal.solvers.messages import MORE_STEPS
 from loadflow.journal.solvers.search import searches
 from loadflow.journal.thermal import at_temperatures, check_scalable, grown_by, warm_film
 from loadflow.numerics.convergence import Limits
@@ -172,7 +173,7 @@ def series_temperature(
         raise SolverError(
             "orbit cannot start: no heat balance of its mean friction and flow; at rest no film "
             f"carries its mildest loads, from {size.min():.4g} N on"
-            + _why_none(model, bearing, film, force, speed, line, int(some[size.argmin()]))
+            + _why_none(model, bearing, film, force, speed, again, int(some[size.argmin()]))
         )
     if np.mean(converged) < 1.0 - LEFT_OUT:
         largest = np.hypot(*force[some][converged].T).max()
@@ -238,7 +239,11 @@ def _why_none(
     line: Line,
     index: int,
 ) -> str:
-    """Why a load of the series has no film in the coldest oil."""
+    """Why a load of the series has no film: as its search has told, or in the coldest oil."""
+    told = None if line.searches is None else line.searches[index].why
+    if told is not None and MORE_STEPS not in told[1]:
+        return f": {told[1]}"
+    line = replace(line, searches=None)
     heat, one = cast("Heat", film.heat), np.array([index])
     cold = replace(film.isothermal(), lubricant=heat.lubricant(heat.coldest))
     grown = grown_by(bearing, heat, heat.coldest)

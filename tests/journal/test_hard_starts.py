@@ -26,15 +26,19 @@ from loadflow.journal import (
     Supply,
 )
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.line import Line
 from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.effort import Effort
-from loadflow.journal.solvers.newton import solve_film
+from loadflow.journal.solvers.newton import no_film, solve_film
+from loadflow.journal.solvers.search import searches
+from loadflow.journal.solvers.static_rows import equilibrium_rows
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.journal.warm_orbit import FEW
+from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact
 
 
@@ -456,3 +460,29 @@ def test_a_shaft_in_two_films_has_more_cells_in_that_which_may_ask_for_them():
     with pytest.raises(OrbitStopped, match="orbit stops"):
         on_enough_cells(films, path, [240, 0])
     assert asked == [[60, 48], [120, 48], [240, 48]]
+
+
+@pytest.mark.parametrize(
+    ("together", "found", "asked"), [(True, 0, 4), (True, 1, 8), (False, 0, 8)]
+)
+def test_of_loads_with_one_effort_few_are_sought_where_none_is_found(
+    monkeypatch, together, found, asked
+):
+    """Nothing is left of the effort: each is tried once, but after four in vain no other is."""
+    tried = []
+
+    def resolve(self: Statics, index: int, *given: Any, **words: Any) -> Any:
+        tried.append(index)
+        return self, no_film(self.film)
+
+    monkeypatch.setattr(Statics, "resolve", resolve)
+    every = searches(8, together)
+    for one in every:
+        one.efforts[:] = [Effort(left=0.0, found=found)]
+    bearing, film = JournalBearing(0.2, 0.1, 1e-3), Film(Lubricant(0.03), grid=(24, 8))
+    loads, line = np.tile([1e4, 0.0], (8, 1)), Line(searches=every)
+    control = Limits(1e-10, 60, strict=False)
+    rows = equilibrium_rows(bearing, film, loads, np.full(8, 30.0), line, control)
+    assert len(tried) == asked
+    assert len(rows) == 8
+    assert not any(row["converged"] for row in rows)

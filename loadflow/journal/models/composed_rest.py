@@ -25,6 +25,7 @@ from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
+from loadflow.journal.solvers.search import IN_VAIN
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -118,7 +119,9 @@ def films_at_rest(
     judged = Judged(model.film.ring, model.film.nodes, model.film.held.on, count)
     films: dict[int, tuple[Array, Array]] = {}
     last: int | None = None
+    together = line.searches is not None and line.searches[0].together
     for n in range(count):
+        hardly = together and last is None and n >= IN_VAIN
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
         work.liquid[:] = 0.0
         if speed[n] == 0.0 and options.contact is None and loads.loads[n].any():
@@ -142,7 +145,7 @@ def films_at_rest(
                 thin[n] = model.film.give > 0.0 and not model.resolves_gap(row[at.LEAST])
                 if model.unresolved_across(row[None])[0]:
                     films[n] = work.u.copy(), start.place.copy()
-            if answered or none[n]:
+            if answered or none[n] or (hardly and start.first):
                 break
         rows[n, at.RESIDUAL : at.RESULTS] = residual, spent, converged, rounding
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]

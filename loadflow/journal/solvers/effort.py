@@ -34,6 +34,8 @@ class Effort:
         Of these, that earlier films of a `Search` have taken.
     kept : float
         Of what is left, that is kept for other cells.
+    found, vain : int
+        Films of loads that share it, found and sought in vain.
 
     Examples
     --------
@@ -46,6 +48,8 @@ class Effort:
     spent: int = 0
     before: int = 0
     kept: float = 0.0
+    found: int = 0
+    vain: int = 0
 
     @classmethod
     def of(cls, film: DiscreteFilm, max_iterations: int) -> Effort:

@@ -55,6 +55,11 @@ def has_touched(film: DiscreteFilm, solution: Solution) -> bool:
     return not film.elastic and meets(film, solution.position)
 
 
+def ended(film: DiscreteFilm, solution: Solution, effort: Effort) -> bool:
+    """Whether a search has come to its end, or may go no farther."""
+    return solution.converged or effort.over or has_touched(film, solution)
+
+
 def meets(film: DiscreteFilm, position: Array) -> bool:
     """Whether the shaft at `position` meets a rigid bore, or its law of contact ends there."""
     if film.contact is None:
@@ -277,7 +282,9 @@ def solve_by_speed(
     between is a path that does not end before. None: not found this way.
     """
     state, done, growth, at, spent = standing, 0.0, 1.0 / _SLOWER, 1.0, 0
-    while state.converged and not (growth < _LEAST_GROWTH or at < _SLOWEST or effort.over):
+    while state.converged and spent < _BUDGET * max_iterations:
+        if growth < _LEAST_GROWTH or at < _SLOWEST or effort.over:
+            break
         film.set_speed(at * speed)
         start = (state.u, state.position)
         trial = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=free)

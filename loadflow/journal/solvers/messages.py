@@ -51,6 +51,12 @@ def narrowest_place(bearing: JournalGeometry, gap: BoreGap, position: Array) -> 
     )
 
 
+def touch_at(bearing: JournalGeometry, film: DiscreteFilm, gap: BoreGap, position: Array) -> str:
+    """That the shaft at a `position` touches the bore, or is beyond its law of contact, where."""
+    beyond = "" if film.contact is None else " beyond the law of contact"
+    return f"the shaft touches the bore{beyond}, {narrowest_place(bearing, gap, position)}"
+
+
 def touches(film: DiscreteFilm, solution: Solution) -> str:
     """That the shaft has met a rigid bore where it lies aslant in it or has lobes; else nothing.
 

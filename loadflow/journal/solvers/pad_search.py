@@ -47,7 +47,7 @@ def search_on_pads(
     if on_pads.lost.size:
         return on_pads
     asked = film, gap, force[:2], position, *limits, effort
-    searched = force[:2].any() and not effort.over
+    searched = bool(force[:2].any()) and not effort.over
     return replace(held, unheld=searched and _holds_none(*asked))
 
 

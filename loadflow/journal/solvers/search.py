@@ -17,6 +17,10 @@ from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.statics import Statics
 
+IN_VAIN = 4
+"""Loads of one effort sought in vain, of which none has been found, after which others are hardly:
+the mildest is the first."""
+
 _CELLS = ("grid", "grading", "inlet")  # what of a film says which cells it has
 
 
@@ -51,6 +55,17 @@ class Search:
     def over(self) -> bool:
         """Whether nothing is left of it: a search would be none, and its end would say nothing."""
         return any(effort.over for effort in self.efforts)
+
+    @property
+    def hopeless(self) -> bool:
+        """Whether of loads that share the effort some have been sought in vain, and none found."""
+        left = self.efforts[0]
+        return self.together and left.vain >= IN_VAIN and not left.found
+
+    def note(self, converged: bool) -> None:
+        """Count a film that has been found, or sought in vain."""
+        self.efforts[0].found += converged
+        self.efforts[0].vain += not converged
 
     def effort(self, film: DiscreteFilm, max_iterations: int) -> Effort:
         """What is left to all films of the load, as one more is asked for."""

@@ -13,7 +13,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.rows import field_cells, field_row, static_row
-from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.search import Search, goes_on
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
@@ -48,6 +48,10 @@ def equilibrium_rows(
         if control.strict and search.why is not None and (over or search.why[0] == omega):
             raise SolverError(f"load {index}: {search.why[1]}")
         effort = search.effort(statics.film, control.max_iterations)
+        if over and index and search.hopeless:
+            given = statics.film, statics.gap, load, options.liquid, no_film(statics.film)
+            rows.append(static_row(bearing, *given, line.whirl))
+            continue
         on, near = statics, last
         if search.last is not None:
             on, near = goes_on(search.last[0], search.last[1], statics)
@@ -58,6 +62,7 @@ def equilibrium_rows(
             afresh = Statics(bearing, options, replace(line, near=None), statics.rate)
             afresh.film.raise_scale(statics.film.scale)
             used, solution = afresh.resolve(index, load, omega, None, control, effort=effort)
+        search.note(solution.converged)
         if not solution.converged:
             if not over or search.why is None:
                 search.why = omega, used.message(solution, load)

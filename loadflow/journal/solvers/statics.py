@@ -30,6 +30,7 @@ from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
     APART,
+    ended,
     has_touched,
     solve_by_approach,
     solve_by_speed,
@@ -37,7 +38,7 @@ from loadflow.journal.solvers.load_stepping import (
     solve_from_held,
     stands,
 )
-from loadflow.journal.solvers.messages import narrowest_place, why_unsolved
+from loadflow.journal.solvers.messages import touch_at, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pad_search import search_on_pads
@@ -53,6 +54,7 @@ _FIRST = 2  # Newton steps of a film on pads before the shaft moves
 _MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _KEPT = 0.6  # of the effort in an elastic shell, for other cells: on some there is no film at all
+_STANDING = 0.4  # of the effort, that is kept for the way from a shaft that stands on asperities
 _SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
 _HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
 _NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
@@ -219,17 +221,20 @@ class Statics:
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
-        if in_steps and not (solution.converged or effort.over) and stands(film):
-            standing = self.solve(index, load, 0.0, None, control, effort=effort)
-            turning = film, force, standing, omega, *limits, effort, self.shaft
-            solution = solve_by_speed(*turning) or solution
         if in_steps and not (solution.converged or effort.over):
-            solution = self._in_steps(force, estimate, pads, limits, effort)
+            given = index, load, omega, control, effort
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
-            if fixed and self._has_path and not _ended(film, solution, effort):
+            kept, turns = effort.kept, fixed and stands(film)
+            effort.kept += _STANDING * (effort.left - kept) * turns
+            found = self._from_standing(*given) if film.elastic and stands(film) else None
+            solution = found or self._in_steps(force, estimate, pads, limits, effort)
+            if fixed and self._has_path and not ended(film, solution, effort):
                 solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
-            if fixed and not _ended(film, solution, effort):
+            if fixed and not ended(film, solution, effort):
                 solution = self._by_other_loads(force, estimate, limits, effort) or solution
+            effort.kept = kept
+            if turns and not ended(film, solution, effort):
+                solution = self._from_standing(*given) or solution
         found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
         return replace(found, given_up=effort.over and not found.converged)
 
@@ -271,11 +276,9 @@ class Statics:
         position[:2] = place
         position = self.gap.lifted(position, omega)
         if not (self.film.elastic or self.gap.narrowest(position) > 0.0):
-            touch = "the shaft touches the bore"
-            why = touch if self.film.contact is None else f"{touch} beyond the law of contact"
+            where = touch_at(self.bearing, self.film, self.gap, position)
             raise InputError(
-                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {why}, "
-                + narrowest_place(self.bearing, self.gap, position)
+                f"{name} {index}: ε = {math.hypot(*place):.6g} is not allowed: {where}"
             )
         return position
 
@@ -386,8 +389,9 @@ class Statics:
     ) -> Iterator[tuple[Array, Array]]:
         """Where Newton may start: from the last solution if the estimate has moved little."""
         film, gap = self.film, self.gap
-        lifts, fed = film.lifts, film.pockets.free.size > 0
-        if last is not None and last.estimate is not None and _same(last.free, free):
+        lifts, fed, every = film.lifts, film.pockets.free.size > 0, np.arange(gap.size)
+        same = last is not None and np.array_equal(every[last.free], every[free])
+        if last is not None and last.estimate is not None and same:
             position = estimate.copy()
             position[free] = last.position[free]
             # a shell opens wherever it is pressed: any film in it is nearer than none
@@ -408,6 +412,15 @@ class Statics:
             floating = afloat()
         if floating is not None and not carried:
             yield floating.u, floating.position
+
+    def _from_standing(
+        self, index: int, load: Array, omega: float, control: Limits, effort: Effort
+    ) -> Solution | None:
+        """Equilibrium from the shaft that stands on asperities; None: not found this way."""
+        standing = self.solve(index, load, 0.0, None, control, effort=effort)
+        limits = control.tolerance, self.film.newton_steps(control.max_iterations)
+        turning = self.film, self._force(index, load), standing, omega
+        return solve_by_speed(*turning, *limits, effort, self.shaft)
 
     def _by_other_loads(
         self, force: Array, estimate: Array, limits: tuple[float, int], effort: Effort
@@ -435,13 +448,3 @@ class Statics:
         if self.gap.pads.size or not self._has_path:
             return solve_from_held(*given)
         return solve_from_held(*given, _LONG)  # a path goes on
-
-
-def _ended(film: DiscreteFilm, solution: Solution, effort: Effort) -> bool:
-    """Whether a search has come to its end, or may go no farther."""
-    return solution.converged or effort.over or has_touched(film, solution)
-
-
-def _same(free: slice | Rows, other: slice | Rows) -> bool:
-    """Whether both are the same degrees of freedom."""
-    return free is other or np.array_equal(np.asarray(free), np.asarray(other))
