@@ -88,7 +88,7 @@ SEATS: dict[str, dict[str, Any]] = {
 REFERENCE = ROOT / "pipelines" / "dlc_1_1.toml"
 STOP = ROOT / "pipelines" / "dlc_4_2_shutdown.toml"
 FITS = 0.875
-"""Width of a bearing over the distance to the next, at most; that of those sized for 15 MW."""
+"""Width of a bearing over the distance to the next, at most."""
 HOLLOW = 0.9
 """Bore of the shaft over its diameter, as in the main job."""
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from loadflow.errors import InputError
 from loadflow.rolling.rings.usual import BEYOND, RING, STRUCTURE
@@ -35,17 +35,17 @@ def housing_area(bearing: RollingGeometry) -> float:
     >>> round(housing_area(bearing), 1)
     5.1
     """
-    balls = bearing.element == "ball"
-    size = getattr(bearing, "ball_diameter" if balls else "roller_diameter", None)
+    own: Any = bearing
+    balls = own.element == "ball"
+    size = getattr(own, "ball_diameter" if balls else "roller_diameter", None)
     if size is None:
         raise InputError(
-            f"a {bearing.kind} bearing has elements of several sizes; give conductance, or area "
-            "and transfer"
+            "the bearing has elements of several sizes; give conductance, or area and transfer"
         )
-    length = size if balls else getattr(bearing, "roller_length")  # noqa: B009 - of rollers alone
-    rows = (getattr(bearing, "rows", 1) - 1) * getattr(bearing, "row_spacing", 0.0)
-    rows = rows or 2 * abs(getattr(bearing, "row_offset", 0.0))  # of spherical ones by their angle
-    shaft = bearing.pitch_diameter - (1 + 2 * RING) * size
-    high = bearing.pitch_diameter + (1 + 2 * RING + 2 * STRUCTURE) * size
+    length = size if balls else own.roller_length
+    rows = (getattr(own, "rows", 1) - 1) * getattr(own, "row_spacing", 0.0)
+    rows = rows or 2 * abs(getattr(own, "row_offset", 0.0))  # of spherical ones by their angle
+    shaft = own.pitch_diameter - (1 + 2 * RING) * size
+    high = own.pitch_diameter + (1 + 2 * RING + 2 * STRUCTURE) * size
     wide = rows + length + 2 * (BEYOND + COVER) * size
-    return math.pi * high * wide + 0.5 * math.pi * (high**2 - shaft**2)
+    return float(math.pi * high * wide + 0.5 * math.pi * (high**2 - shaft**2))

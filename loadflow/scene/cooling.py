@@ -44,7 +44,7 @@ class Cooling:
     >>> Cooling(area=4.0, transfer=15.0).conductance_of(bearing)
     60.0
     >>> round(Cooling(transfer=15.0).conductance_of(bearing), 1)
-    21.5
+    15.5
     """
 
     conductance: Annotated[float, Gt(0)] | None = None

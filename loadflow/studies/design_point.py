@@ -109,6 +109,7 @@ def judge_design(
     friction: Friction,
     spectrum: xr.DataTree,
     shaft: BentShaft | None = None,
+    rises: Mapping[str, float] | None = None,
 ) -> DesignPoint:
     """Friction, margin and conditions of a candidate under a load spectrum.
 
@@ -123,6 +124,9 @@ def judge_design(
     shaft : BentShaft, optional
         The shaft that bends in them, as wide as they are: films follow it, or its tilt is a
         condition.
+    rises : mapping, optional
+        Power of the load that the rise of a rolling bearing over the air follows, by place. Left
+        out, that of its heat balance, and 0 where `friction` states its temperature.
 
     Returns
     -------
@@ -138,7 +142,7 @@ def judge_design(
                     samples, around = shaft.lying(candidate, place, samples), shaft
                 _add_film(sums, candidate.journal.at(place), place, samples, around)
         if candidate.rolling is not None:
-            _add_rolling(sums, candidate.rolling.bearings, friction, spectrum)
+            _add_rolling(sums, candidate.rolling.bearings, friction, spectrum, rises or {})
             if shaft is not None:
                 _add_tilts(sums, candidate, shaft, spectrum)
     except (SolverError, InputError) as error:
@@ -281,13 +285,18 @@ def _lives(turned: _Turned, wanted: float, factor: float) -> bool:
 
 
 def _add_rolling(
-    sums: _Sums, parts: Mapping[str, FurtherBearing], friction: Friction, spectrum: xr.DataTree
+    sums: _Sums,
+    parts: Mapping[str, FurtherBearing],
+    friction: Friction,
+    spectrum: xr.DataTree,
+    rises: Mapping[str, float],
 ) -> None:
     """Add what the rolling bearings lose, and how far their limits are."""
     lives: list[_Turned] = []
     for place, stated in parts.items():
         samples, own = spectrum[place].to_dataset(), friction.of(stated)
-        turned = _Turned.of(stated, samples, own if stated.balances_heat else own.without_balance())
+        own = own if stated.balances_heat else own.without_balance()
+        turned = _Turned.of(stated, samples, own, rises.get(place, 0.0))
         part = turned.part
         lives.append(turned)
         sums.power += turned.power
@@ -349,14 +358,16 @@ class _Turned:
     pressure: float
 
     @classmethod
-    def of(cls, stated: FurtherBearing, samples: xr.Dataset, options: Friction) -> _Turned:
+    def of(
+        cls, stated: FurtherBearing, samples: xr.Dataset, options: Friction, rise: float
+    ) -> _Turned:
         used = samples.isel(sample=np.flatnonzero(samples["weight"].values > 0))
         force, moment, speed, weight = (
             used[name].transpose("sample", ...).values
             for name in ("force", "moment", "speed", "weight")
         )
         part, kelvin = at_work(stated, options, force, moment, speed, weight)
-        power = 0.0
+        power = rise
         if options.conductance is not None:
 
             def under(factor: float) -> float:

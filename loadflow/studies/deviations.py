@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -53,6 +53,9 @@ class Built:
     spans : mapping
         Gaps of the tables of thrust collars, m, by place: those of the bearings as stated, which
         they share with all their ends. Left out, those of the collars of the candidate.
+    rises : mapping
+        Power of the load that the rise of a rolling bearing over the air follows, by place, where
+        `friction` states the temperature that its heat balance has.
     """
 
     candidate: Candidate
@@ -60,6 +63,7 @@ class Built:
     spectrum: xr.DataTree
     rubbing: Rubbing | None = None
     spans: Mapping[str, tuple[float, float] | None] | None = None
+    rises: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if self.spans is None:

@@ -78,12 +78,12 @@ def warmth_of(
     known, powers = {}, {}
     for case, some in samples:
         known[case] = float(table["bearing_temperature"].sel(case=case, bearing=place))
-        powers[case] = _power(scene, place, some)
+        powers[case] = rise_power(scene, place, some)
     return Warmth(known, powers, ambient)
 
 
-def _power(scene: Scene, place: str, some: xr.Dataset) -> float:
-    """Power of the load that the rise over the air follows."""
+def rise_power(scene: Scene, place: str, some: xr.Dataset) -> float:
+    """Power of the load that the rise of a bearing over the air follows; 0 where it is stated."""
     if scene.friction.conductance_of(scene.rolling.bearings[place]) is None:
         return 0.0
 

@@ -43,6 +43,7 @@ from loadflow.studies.design_point import allowed_pressure, judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
 from loadflow.studies.load_spectrum import STANDING_SHARE
 from loadflow.studies.pad_films import PadFilms, pad_films, tabulated
+from loadflow.studies.rolling_warmth import rise_power
 from loadflow.studies.wear_bands import rubbing_of
 
 CLASSES = 3
@@ -81,7 +82,12 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
         Its `change` names tolerances that break a limit by themselves.
     """
     rubs = rubbing_of(run, one.numbers["wear"])
-    built = Built(_bearings(run), _friction(run), _in_bores(run.scene, spectrum), rubs)
+    lying = _in_bores(run.scene, spectrum)
+    rises = {
+        place: rise_power(run.scene, place, spectrum[place].to_dataset())
+        for place in (run.scene.rolling.bearings if "rolling" in run.tables else ())
+    }
+    built = Built(_bearings(run), _friction(run), lying, rubs, rises=rises)
     known = Known()
     around: dict[str, list[tuple[str, float, float]]] = {}
     breaking = []
@@ -208,7 +214,7 @@ def cheap_numbers(built: Built, deciding: Mapping[str, Deciding] | None = None) 
         found |= _of_films(candidate.journal, films, spectrum.attrs["seconds"])
     if candidate.rolling is not None:
         alone = Candidate(rolling=candidate.rolling)
-        found |= judge_design(alone, built.friction, spectrum).numbers
+        found |= judge_design(alone, built.friction, spectrum, rises=built.rises).numbers
         found |= _of_rolling(candidate.rolling.bearings, built.friction, spectrum)
     if candidate.thrust is not None:
         found |= _of_pads(candidate.thrust, spectrum, found, built.spans or {})

@@ -14,8 +14,8 @@ from loadflow.rolling.friction.catalogue import (
     palmgren_idle_torque,
     palmgren_load_torque,
 )
+from loadflow.rolling.housing import housing_area
 from loadflow.scene.bearings import FurtherBearing
-from loadflow.scene.cooling import Cooling
 from loadflow.scene.friction import Friction
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
@@ -23,8 +23,8 @@ from loadflow.stages.effects.roller_profile import SLICED
 from loadflow.stages.effects.situation import BearingLoad, Floats, Situation
 from loadflow.tribology import lubricant
 
-HOUSED = Cooling(transfer=15.0)
-"""Of a bearing where no cooling is stated: a housing in still air, assumed (docs/compare.md)."""
+TRANSFER = 15.0
+"""Of a housing in still air, W/(m² K), where no cooling is stated; assumed (docs/compare.md)."""
 
 HOTTEST = 150.0  # K above the air, to which the balance is sought
 _HALVINGS = 30
@@ -55,7 +55,7 @@ def _of_bearing(options: Friction, part: FurtherBearing, load: BearingLoad, spee
     bearing: Any = part.geometry
     oil, turns = lubricant(options.lubricant), np.abs(speed) > 0
     own = _Friction(bearing, load, speed, turns)
-    conductance = options.conductance_of(part) or HOUSED.conductance_of(bearing)
+    conductance = options.conductance_of(part) or TRANSFER * housing_area(bearing)
     air, stated = options.ambient_temperature, options.temperature_of(part)
     low, high = np.full(own.speed.shape, air), np.full(own.speed.shape, air + HOTTEST)
     for _ in range(_HALVINGS):
