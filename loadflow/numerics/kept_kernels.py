@@ -113,5 +113,5 @@ def _remove_outdated(folder: Path, file: Path) -> None:
                 kept.unlink()
 
 
-_BY_NUMBA = tuple(FunctionCache._impl_class._locator_classes)
+_BY_NUMBA: tuple[Any, ...] = tuple(FunctionCache._impl_class._locator_classes)
 FunctionCache._impl_class._locator_classes = [KernelPlace, *_BY_NUMBA]
