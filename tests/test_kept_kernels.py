@@ -16,16 +16,16 @@ SOLVER = ROOT / "journal/solvers/_newton_kernels.py"
 
 @pytest.fixture
 def edit(monkeypatch):
-    """Read one file of the package as if a line were added to it."""
+    """Read one file of the package as if a line were added to it, or it were `changed`."""
     read = kept_kernels._text.__wrapped__
 
     def forget():
-        for known in (kept_kernels._text, kept_kernels._imports, kept_kernels.state_of):
-            known.cache_clear()
+        for known in ("_text", "_imports", "_rests_on", "_tuples_of", "state_of"):
+            getattr(kept_kernels, known).cache_clear()
 
-    def edited(name):
+    def edited(name, changed=lambda text: f"{text}\nADDED = 1\n"):
         def text(file):
-            return read(file) + ("\nADDED = 1\n" if file == ROOT / name else "")
+            return changed(read(file)) if file == ROOT / name else read(file)
 
         forget()
         monkeypatch.setattr(kept_kernels, "_text", text)
@@ -36,22 +36,37 @@ def edit(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    "name",
+    ("kernel", "name"),
     [
-        "journal/solvers/_newton_kernels.py",  # itself
-        "journal/film/_gap_kernels.py",  # what it calls
-        "tribology/_contact_integral.py",  # constants of what that calls
+        (SOLVER, "journal/solvers/_newton_kernels.py"),  # itself
+        (SOLVER, "journal/film/_gap_kernels.py"),  # what it calls
+        (SOLVER, "tribology/_contact_integral.py"),  # constants of what that calls
+        (ROOT / "rotor/control/_kernels.py", "wind/cases.py"),  # what its constants are made of
     ],
 )
-def test_a_change_of_what_a_kernel_is_compiled_from_makes_kept_ones_outdated(name, edit):
+def test_a_change_of_what_a_kernel_is_compiled_from_makes_kept_ones_outdated(kernel, name, edit):
+    before = kept_kernels.state_of(kernel)
+    edit(name)
+    assert kept_kernels.state_of(kernel) != before
+
+
+def test_another_order_of_fields_that_a_kernel_is_given_makes_kept_ones_outdated(edit):
+    """Of the same types: numba would take the old kernel, and one field for the other."""
+    kernel = ROOT / "journal/models/_thickening_kernels.py"  # which does not import the tuple
+
+    def swapped(text):
+        assert "    cos: Array\n    sin: Array\n" in text
+        return text.replace("    cos: Array\n    sin: Array\n", "    sin: Array\n    cos: Array\n")
+
+    before = kept_kernels.state_of(kernel)
+    edit("journal/models/ring.py", swapped)
+    assert kept_kernels.state_of(kernel) != before
+
+
+@pytest.mark.parametrize("name", ["wind/_kernels.py", "journal/bearing.py", "journal/shells.py"])
+def test_a_change_elsewhere_keeps_kernels(name, edit):
     before = kept_kernels.state_of(SOLVER)
     edit(name)
-    assert kept_kernels.state_of(SOLVER) != before
-
-
-def test_a_change_elsewhere_keeps_kernels(edit):
-    before = kept_kernels.state_of(SOLVER)
-    edit("wind/_kernels.py")
     assert kept_kernels.state_of(SOLVER) == before
 
 

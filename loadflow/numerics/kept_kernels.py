@@ -2,12 +2,14 @@
 
 numba compiles into a kernel what it calls and the constants that it names, also those of other
 files, but looks at its own file alone when it asks whether a kept one still holds: after an update
-old code could answer. Here the state of all these files is part of the name under which a kernel is
-kept, and kernels kept of another state of its file are removed.
+old code could answer. It also knows a field of a named tuple by its place alone. Here the state of
+all these files and tuples is part of the name under which a kernel is kept, and kernels kept of
+another state of its file are removed.
 """
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import re
 from collections.abc import Callable
@@ -20,6 +22,8 @@ from numba.core.caching import FunctionCache
 
 _ROOT = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (\.*)([\w.]*) import (\([^)]*\)|.*)", re.MULTILINE)
+_TUPLE = re.compile(r"^class (\w+)\(NamedTuple\b.*:\n((?:(?: .*)?\n)*)", re.MULTILINE)
+_FIELD = re.compile(r"^    (\w+): ", re.MULTILINE)
 _COMPILES = {"linked.py", "_compile.py"}  # from these come the decorators of kernels
 
 
@@ -72,18 +76,20 @@ class KernelPlace:
 def state_of(file: Path) -> str:
     """Digest of a file with kernels and of the files of this package that it rests on.
 
-    Those are the files that it imports from, and again those of each of them that has kernels.
+    Those are the files that it imports from, and again those of each of them that has kernels; of
+    one without kernels, those that its constants are made of. A kernel need not import the named
+    tuples that it is given, so that those of all rooms of these files count.
     """
     found, ahead = {file}, [file]
     while ahead:
-        for used in _imports(ahead.pop()):
-            if used not in found:
-                found.add(used)
-                if _COMPILES & {each.name for each in _imports(used)}:
-                    ahead.append(used)
+        new = set(_rests_on(ahead.pop())) - found
+        found |= new
+        ahead += new
     told = hashlib.sha256()
     for each in sorted(found):
         told.update(f"{each.relative_to(_ROOT).as_posix()}\n{_text(each)}\n".encode())
+    for room in sorted({each.relative_to(_ROOT).parts[0] for each in found}):
+        told.update(_tuples_of(room).encode())
     return told.hexdigest()[:12]
 
 
@@ -93,15 +99,44 @@ def _text(file: Path) -> str:
 
 
 @cache
-def _imports(file: Path) -> tuple[Path, ...]:
-    """Files of this package from which one imports at its top."""
+def _rests_on(file: Path) -> tuple[Path, ...]:
+    """Files of this package that what is compiled from one needs itself."""
+    every = _imports(file)
+    kernels = _COMPILES & {each.name for each in every}
+    return every if kernels else _imports(file, _compiled_names(file))
+
+
+@cache
+def _imports(file: Path, names: frozenset[str] | None = None) -> tuple[Path, ...]:
+    """Files of this package from which one imports at its top, all or only some `names`."""
     found = []
-    for dots, module, names in _IMPORT.findall(_text(file)):
+    for dots, module, told in _IMPORT.findall(_text(file)):
         start = file.parents[len(dots) - 1] if dots else _ROOT.parent
         place = start.joinpath(*module.split(".")) if module else start
-        inside = [place / f"{name}.py" for name in re.findall(r"\w+", names)]
-        found += [place.with_suffix(".py"), *inside]
+        known = [
+            name
+            for name, called in re.findall(r"(\w+)(?: as (\w+))?", told)
+            if names is None or (called or name) in names
+        ]
+        if known:
+            found += [place.with_suffix(".py"), *(place / f"{name}.py" for name in known)]
     return tuple(path for path in found if path.is_relative_to(_ROOT) and path.is_file())
+
+
+def _compiled_names(file: Path) -> frozenset[str]:
+    """Names of which the constants of a file are made."""
+    told = ast.parse(_text(file)).body
+    made = [one.value for one in told if isinstance(one, (ast.Assign, ast.AnnAssign)) and one.value]
+    parts = [part for value in made for part in ast.walk(value)]
+    return frozenset(part.id for part in parts if isinstance(part, ast.Name))
+
+
+@cache
+def _tuples_of(room: str) -> str:
+    """Fields of all named tuples of a room, in their order."""
+    texts = [_text(file) for file in sorted((_ROOT / room).rglob("*.py"))]
+    found = [each for text in texts for each in _TUPLE.findall(text)]
+    return "\n".join(f"{name}: {' '.join(_FIELD.findall(body))}" for name, body in found)
 
 
 @cache
