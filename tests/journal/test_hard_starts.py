@@ -82,6 +82,15 @@ def test_a_shaft_on_asperities_comes_up_to_its_speed_from_standing(monkeypatch):
         solve()
 
 
+def test_steps_that_leave_the_rest_of_their_effort_to_the_way_from_standing_say_so(monkeypatch):
+    """More of it might have led somewhere, so that the refusal tells what allows more."""
+    _, solve = drawn("composed", 186)
+    monkeypatch.setattr(statics, "_STANDING", 1.0)
+    monkeypatch.setattr(Statics, "_from_standing", lambda *given: None)
+    with pytest.raises(SolverError, match="all that a search may take"):
+        solve()
+
+
 def test_pads_that_no_film_holds_are_named_and_carry_where_they_are_not_worn():
     """Four pads worn in waves, each so that its film turns it flat at every tilt."""
     point, solve = drawn("composed", 177)

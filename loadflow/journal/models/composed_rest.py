@@ -119,9 +119,10 @@ def films_at_rest(
     judged = Judged(model.film.ring, model.film.nodes, model.film.held.on, count)
     films: dict[int, tuple[Array, Array]] = {}
     last: int | None = None
+    vain = 0
     together = line.searches is not None and line.searches[0].together
     for n in range(count):
-        hardly = together and last is None and n >= IN_VAIN
+        hardly = together and last is None and vain >= IN_VAIN
         spent, converged, residual, rounding = 0, False, np.inf, 0.0
         work.liquid[:] = 0.0
         if speed[n] == 0.0 and options.contact is None and loads.loads[n].any():
@@ -148,6 +149,7 @@ def films_at_rest(
             if answered or none[n] or (hardly and start.first):
                 break
         rows[n, at.RESIDUAL : at.RESULTS] = residual, spent, converged, rounding
+        vain += not converged
     lengths = np.array([1.0, 1.0, bearing.radius, bearing.radius])[:both]
     scale = np.outer(lengths, lengths) / bearing.clearance
     answer = {

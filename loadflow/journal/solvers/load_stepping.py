@@ -32,10 +32,7 @@ _STRIDE = 0.25  # first share of the way from the load at the start to the one t
 _SHORTEST = 1e-3  # of the lesser of both loads, below which such a step is given up
 _STEPS_SHORT = 14  # Newton steps of each
 _SLOWER = 0.01  # share of the speed that is tried next where none is found beside the standing one
-_SLOWEST, _LEAST_GROWTH = (
-    1e-8,
-    1.02,
-)  # share of it, and growth in a step, below which it is given up
+_SLOWEST, _LEAST_GROWTH = 1e-8, 1.02  # of it, and growth in a step, below which it is given up
 _BUDGET = 10  # of all, in multiples of those of a solution
 _EASED = (0.9, 0.5, 0.1)  # of the way to the first position, at which a lighter film is sought
 _FEW = 7  # Newton steps below which the next of these steps is twice as long

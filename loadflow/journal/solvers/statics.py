@@ -221,6 +221,7 @@ class Statics:
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
+        cut = False
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
@@ -232,11 +233,11 @@ class Statics:
                 solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
             if fixed and not ended(film, solution, effort):
                 solution = self._by_other_loads(force, estimate, limits, effort) or solution
-            effort.kept = kept
+            cut, effort.kept = effort.over, kept
             if turns and not ended(film, solution, effort):
                 solution = self._from_standing(*given) or solution
         found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
-        return replace(found, given_up=effort.over and not found.converged)
+        return replace(found, given_up=(cut or effort.over) and not found.converged)
 
     def hold(
         self,
