@@ -215,13 +215,12 @@ class Statics:
         carries = self._carries(force)
         if not carries and force.any():
             return no_film(film)
-        near, of_shaft = self.line.start(index), (self._held(index), self.shaft)
+        near, of_shaft, cut = self.line.start(index), (self._held(index), self.shaft), False
         estimate = first_position(self.bearing, film, gap, load, *of_shaft, near)
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
-        cut = False
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
             fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
