@@ -196,7 +196,8 @@ class DoubleThrustBearing:
         Parameters
         ----------
         gap : float
-            Film of the front row on the axis, m, between 0 and the play.
+            Film of the front row on the axis, m, between 0 and the play. A row of pads on elastic
+            supports, which give way, has no such bound on its side.
         tilt : array_like (2,)
             Rotation of the collar about the first and the second axis, rad: the gap of the front
             row grows by tilt[0] y − tilt[1] x, that of the other one falls by it.
@@ -211,7 +212,9 @@ class DoubleThrustBearing:
             Pads that find no tilt without moment.
         """
         film, control = asked(film, more, control, keywords, knows_heat=True)
-        require(0 < gap < self.play, "gap", gap, f"m, between 0 and the play of {self.play:g}")
+        least = -math.inf if self.front._softness else 0.0
+        most = math.inf if self.back._softness else self.play
+        require(least < gap < most, "gap", gap, f"m, between {least:g} and {most:g}")
         return self._held(gap, speed, (film, film), finite("tilt", tilt, 2), control)
 
     def _held(
@@ -314,24 +317,29 @@ class DoubleThrustBearing:
         """
         limits = limits_of(control)
         pressed = 1.0 if force >= 0 else -1.0
+        rows = (self.front, self.back) if pressed > 0 else (self.back, self.front)
+        film = films[0] if pressed > 0 else films[1]
+        given_way = rows[0]._given_way(film, speed)
 
         def at(inverse: float) -> DoubleThrustResult:
-            film_there = 1.0 / math.sqrt(inverse)
-            gap = film_there if pressed > 0 else self.play - film_there
+            own = 1.0 / math.sqrt(inverse) - given_way * inverse
+            gap = own if pressed > 0 else self.play - own
             return self._held(gap, speed, films, turned, control)
+
+        def inverse_at(gap: float) -> float:
+            return 1.0 / rows[0]._thick_at("gap", gap, film, speed) ** 2
 
         def answer(found: DoubleThrustResult, error: float, converged: bool) -> DoubleThrustResult:
             residual = max(error, found.residual)
             return replace(found, residual=residual, iterations=spent, converged=converged)
 
-        rows = (self.front, self.back) if pressed > 0 else (self.back, self.front)
         ends = [max(_CLOSED * self.play, self._reach(row, turned)) for row in rows]
         if sum(ends) >= self.play:
             raise SolverError(f"{head}: the play of {self.play:g} m has no room for the tilt")
-        low, high = (1.0 / (self.play - ends[1])) ** 2, (1.0 / ends[0]) ** 2
+        low, high = inverse_at(self.play - ends[1]), (1.0 / ends[0]) ** 2
         x, spent = (2.0 / self.play) ** 2, 0
         if near is not None:
-            x = (1.0 / (near.gap if pressed > 0 else self.play - near.gap)) ** 2
+            x = inverse_at(near.gap if pressed > 0 else self.play - near.gap)
         if not low < x < high:
             x = math.sqrt(low * high)
         for _ in range(_ROUNDS):
@@ -343,7 +351,7 @@ class DoubleThrustBearing:
             if found.converged and error < max(limits.tolerance, 1e-9):
                 return answer(found, error, True)
             low, high = (x, high) if missing > 0 else (low, x)
-            slope = 0.5 * found.stiffness * x**-1.5
+            slope = found.stiffness * (0.5 * x**-1.5 + given_way)
             trial = x + missing / slope if slope > 0 else math.nan
             x = trial if low < trial < high else math.sqrt(low * high)
             if high / low - 1.0 < 1e-12:

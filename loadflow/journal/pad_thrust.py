@@ -110,7 +110,7 @@ class PadThrust(PadBearing):
             finite("velocity", velocity),
         )
         turned = finite("tilt", tilt, 2)
-        thick = self._thick("gap", gap, film, speed)
+        thick = self._thick_at("gap", gap, film, speed)
         assembly = self._assembly(film, gap, thick, speed, velocity, alike=not turned.any())
         limits = limits_of(control)
         place = np.array([0.0, 0.0, 0.0, *turned])
@@ -185,7 +185,7 @@ class PadThrust(PadBearing):
         self, film: Film, place: float, tilt: Array, speeds: Array, free: Rows, control: Control
     ) -> tuple[Assembly, AssemblyState]:
         alike, first = free.size == self._shifts.size and not tilt.any(), float(speeds[0])
-        thick = self._thick("start", place, film, first)
+        thick = self._thick_at("start", place, film, first)
         assembly = self._assembly(film, place, thick, float(np.abs(speeds).max()), 0.0, alike)
         for member in assembly.members:
             member.film.set_speed(first)
@@ -266,7 +266,11 @@ class PadThrust(PadBearing):
         own: Any = self
         return replace(own, pivot=replace(pivot, stiffness=math.inf))
 
-    def _thick(self, name: str, gap: float, film: Film, speed: float) -> float:
+    def _given_way(self, film: Film, speed: float) -> float:
+        """How far their supports give way to a film of ordinary pads, times its square, m³."""
+        return self._softness * self._ordinary(film.liquid.viscosity * abs(speed))
+
+    def _thick_at(self, name: str, gap: float, film: Film, speed: float) -> float:
         """Film of ordinary pads that their supports let give way from a `gap`, m: where both
         carry the same, (thick − gap)/softness = ordinary load number/thick².
 
@@ -275,9 +279,8 @@ class PadThrust(PadBearing):
         loadflow.errors.InputError
             A gap that no film keeps open.
         """
-        thick, soft = gap, self._softness
-        if soft:
-            lifting = soft * self._ordinary(film.liquid.viscosity * abs(speed))
+        thick, lifting = gap, self._given_way(film, speed)
+        if self._softness:
             thick = float(np.roots([1.0, -gap, 0.0, -lifting]).real.max())
         require(thick > 0, name, gap, "must be > 0 m")
         return thick

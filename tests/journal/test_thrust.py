@@ -208,12 +208,17 @@ def test_tilting_pads_may_give_way_by_more_than_their_film(stiffness):
     np.testing.assert_allclose(path.minimum_film, state.minimum_film, rtol=1e-3)
 
 
-def test_a_collar_finds_its_place_between_tilting_pads_on_springs():
-    row = ThrustBearing(6, 0.5, 0.9, 0.8, pivot=Pivot(0.6, stiffness=1e10))
-    found = DoubleThrustBearing(row, row, play=3e-4).equilibrium(4e6, 12.0, FILM)
-    assert found.front.force - found.back.force == pytest.approx(4e6, rel=1e-6)
-    alone = row.equilibrium(found.front.force, 12.0, FILM)
-    assert found.gap == pytest.approx(alone.gap, abs=1e-9)
+@pytest.mark.parametrize("stiffness", [1e10, 1e9])
+@pytest.mark.parametrize("force", [4e6, -4e6])
+def test_a_collar_finds_its_place_between_tilting_pads_on_springs(stiffness, force):
+    row = ThrustBearing(6, 0.5, 0.9, 0.8, pivot=Pivot(0.6, stiffness=stiffness))
+    collar = DoubleThrustBearing(row, row, play=3e-4)
+    found = collar.equilibrium(force, 12.0, FILM)
+    assert found.front.force - found.back.force == pytest.approx(force, rel=1e-6)
+    pressed = found.front if force > 0 else found.back
+    alone = row.equilibrium(pressed.force, 12.0, FILM)
+    assert pressed.gap == pytest.approx(alone.gap, abs=1e-9)
+    assert collar.pressure(found.gap, 12.0, FILM).force == pytest.approx(force, rel=1e-5)
 
 
 @pytest.mark.parametrize(
