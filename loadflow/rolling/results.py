@@ -216,6 +216,7 @@ class ContactResult(Shown, RingEquilibrium, Generic[Bearing]):
         moved = self.displacement / scale
         load = np.concatenate([self.force, self.moment], axis=-1) * scale
         tangent = self.stiffness * np.outer(scale, scale)
+        tangent = (tangent + np.swapaxes(tangent, -1, -2)) / 2  # at speed it is not symmetric
         missing = load - np.einsum("...ab,...b->...a", tangent, moved)
         size = np.square(moved).sum(axis=-1, keepdims=True)
         loaded = (np.abs(load).max(axis=-1, keepdims=True) > 0) & (size > 0)

@@ -12,6 +12,7 @@ from benchmarks.robustness.invariances import asked, broken
 DRAWS = [
     ("cylinder", 30001),
     ("cylinder", 30007),
+    ("shaped", 8),  # a crowned pad that a film holds although its curve without relief knows none
     ("shaped", 30001),  # pads whose tilt at a given position Newton's method does not find
     ("shaped", 30017),
     ("pads", 30001),  # eight alike on sixty cells, of which the last digits of a span gave one more

@@ -89,12 +89,27 @@ def test_balls_roll_on_both_raceways_and_do_not_spin_on_the_outer_one(speed):
     assert slip == pytest.approx(dict.fromkeys(slip, 0.0), abs=1e-6 * speed * pitch)
 
 
-def test_stiffness_at_speed_is_the_slope_of_the_force():
-    base = BEARING.equilibrium((3000.0, 0, 12_000), speed=FAST)
-    more = BEARING.equilibrium((3000.0, 0, 12_006), speed=FAST)
-    moved = base.stiffness @ (more.displacement - base.displacement)
-    # loads of inertia go with both contact angles, which it leaves out: 11 % here
-    assert moved[2] == pytest.approx(6.0, rel=0.12)
+@pytest.mark.parametrize("share", [0.0, 0.5, 1.0, 1.5])
+@pytest.mark.parametrize("load", [(3000.0, 0, 12_000, 0, 0), (6000.0, -2000.0, 5000, 40, -60)])
+def test_stiffness_at_speed_is_the_slope_of_the_force(load, share):
+    """Centrifugal forces and gyroscopic moments follow the contact angles, as in the force."""
+    step = np.diag([1.0, 1.0, 2.0, 0.1, 0.1])
+    loads = np.array(load) + np.concatenate([step, -step, np.zeros((1, 5))])
+    found = BEARING.equilibrium(loads[:, :3], loads[:, 3:], speed=share * FAST)
+    moved = (found.displacement[:5] - found.displacement[5:10]).T / 2
+    scale = np.array([1, 1, 1, *(2 / BEARING.pitch_diameter,) * 2])
+    error = (found.stiffness[10] @ moved - step) * scale[:, None] / np.diag(step * scale)
+    assert np.abs(error).max() < 1e-5
+
+
+def test_secant_stiffness_at_speed_is_symmetric_and_leads_to_the_load():
+    found = BEARING.equilibrium((6000.0, -2000.0, 5000), (40, -60), speed=FAST)
+    unlike = found.stiffness - found.stiffness.T
+    assert np.abs(unlike).max() > 1e-3 * np.abs(found.stiffness).max()  # inertia has no potential
+    secant = found.secant_stiffness
+    assert secant == pytest.approx(secant.T, rel=1e-12)
+    load = np.append(found.force, found.moment)
+    assert secant @ found.displacement == pytest.approx(load, rel=1e-9)
 
 
 def test_series_of_random_loads_comes_to_rest():

@@ -34,6 +34,7 @@ _ROUNDS = 40  # films of a shaft that is held
 _FLATTEST, _STEEPEST = 1e-4, 0.999  # share of the lift at which a pad meets the shaft
 _FLAT = 1e-3  # share of the same below which a film turns its pad the other way, flat as it is
 _STEEP = (0.97, 0.9, 0.75, 0.5, 0.25)  # shares of it at which pads are tried that lie flat
+_STEEP_TRIED = 0.3  # share of it at which pads without a film are tried in an equilibrium
 _BALANCED = 1e-6  # moment of a pad over load scale and arm, at which its tilt is good enough
 _TOUCHING = 1e-9  # gap, in clearances, that is none
 _KEPT = 0.5  # of the effort, for other searches
@@ -198,6 +199,45 @@ def film_on_pads(
     moving[pads] = -following(stiffness, gap.shaft) @ moving[: gap.shaft]
     start, motion = (first.u, first.position), Motion(offset=-moving)
     return solve_equilibrium(film, nothing, *start, *limits, motion, pads)
+
+
+def with_further_pads(
+    film: DiscreteFilm,
+    gap: ShapedGap,
+    force: Array,
+    found: Solution,
+    pads: Rows,
+    tolerance: float,
+    max_iterations: int,
+    effort: Effort,
+) -> Solution:
+    """The equilibrium `found` on `pads`, on further ones, too, if a film holds such at its place.
+
+    The curve of one pad, by which `pads` were chosen, knows no relief. Others are tried that a film
+    tilts farther from where they are steep already: where no film holds a pad it turns it flat.
+    """
+    if not (found.converged and gap.pads.size > pads.size and gap.bore.relief):
+        return found
+    limits, sign = (tolerance, max_iterations), math.copysign(1.0, film.speed)
+    others, position = np.setdiff1d(gap.pads, pads), found.position.copy()
+    for row in others.tolist():
+        lift = sign * _STEEP_TRIED * gap.widest_lift(row, position, sign)
+        position[row] += lift - gap.lift(row, position)
+    unload_other_pads(film, gap, gap.pads)
+    trial = solve_film(film, found.u, position, 0.0 * position, *limits)
+    effort.take(film, trial.iterations)
+    likely = others[sign * trial.linear.load[others] < 0.0]
+    if trial.converged and likely.size:
+        state, held = balanced_film(film, gap, trial, np.union1d(pads, likely), *limits)
+        effort.take(film, state.iterations)
+        if state.converged and held.size > pads.size and np.isin(pads, held).all():
+            free = np.union1d(np.arange(gap.size)[found.free], held)
+            state = solve_equilibrium(film, force, state.u, state.position, *limits, free=free)
+            effort.take(film, state.iterations)
+            if state.converged and gap.narrowest(state.position) > _TOUCHING:
+                return state
+    unload_other_pads(film, gap, pads)
+    return found
 
 
 def solve_with_pads(

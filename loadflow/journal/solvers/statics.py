@@ -42,7 +42,7 @@ from loadflow.journal.solvers.messages import touch_at, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pad_search import search_on_pads
-from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads
+from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads, with_further_pads
 from loadflow.journal.solvers.path import solve_beyond_fold
 from loadflow.numerics.convergence import Limits
 
@@ -375,6 +375,7 @@ class Statics:
                 break
             estimate = np.append(solution.position[:2], estimate[2:])
             estimate, last, pads = gap.lifted(estimate, film.speed), None, tilting
+        solution = with_further_pads(film, self._shaped, force, solution, pads, *limits, effort)
         return replace(solution, iterations=effort.spent - begun), estimate, pads
 
     def _starts(
@@ -403,11 +404,10 @@ class Statics:
         carried = floating is not None and carries_there(floating, self.film, force)
         if floating is not None and carried:
             yield floating.u, floating.position
-        still = np.zeros(gap.size)
+        first = film.start()
         if pads.size:  # a film first: from none the tilts would go far
-            yield solve_film(film, film.start(), estimate, still, limits[0], _FIRST).u, estimate
-        else:
-            yield film.start(), estimate
+            first = solve_film(film, first, estimate, 0.0 * estimate, limits[0], _FIRST).u
+        yield first, estimate
         if lifts and not fed:
             floating = afloat()
         if floating is not None and not carried:

@@ -2,7 +2,8 @@
 
 A ball then meets both rings at different angles. The loads of inertia are dead loads within one
 equilibrium and follow its contact angles from one to the next, with control by the outer raceway
-(λ_i = 0, λ_o = 2). Source: Harris & Kotzalas, Advanced Concepts of Bearing Technology, ch. 3.
+(λ_i = 0, λ_o = 2). The stiffness counts how they follow, and is not symmetric: they have no
+potential. Source: Harris & Kotzalas, Advanced Concepts of Bearing Technology, ch. 3.
 """
 
 from __future__ import annotations
@@ -26,6 +27,7 @@ Array = NDArray[np.float64]
 STEEL_DENSITY = 7850.0
 # A lightly pressed ball swings along its groove in steps that its small approach to it bounds.
 _INNER_STEPS, _ROUNDS, _HALVINGS = 500, 50, 30
+_SPHERE = 0.1  # moment of inertia of a sphere over m D²
 _WANTED, _ALLOWED = 1e-8, 1e-4  # change of the loads of inertia over the largest load
 
 
@@ -91,6 +93,11 @@ class _Balls:
     pitch: float
     mass: float
 
+    @property
+    def least(self) -> Array:
+        """A stiffness far below that of any contact: a ball without load stays where it is, N/m."""
+        return 1e-9 * self.outer * self.outer_gap**0.5 * np.eye(2)
+
 
 def spin_equilibrium(
     bearing: BallRaceways,
@@ -155,7 +162,7 @@ def spin_equilibrium(
     reference = np.maximum(np.abs(load * scale).max(axis=1), 1e-12)
     reach = free[None, :, None] + np.einsum("kbij,nj->nkbi", jacobian, q)
     seat = reach * balls.outer_gap / np.hypot(*np.moveaxis(reach, -1, 0))[..., None]
-    angles = (np.arctan2(reach[..., 1], reach[..., 0]),) * 2
+    angles = (_angle(reach),) * 2
     push = np.zeros_like(reach)
     total = 0
     for turn in range(_ROUNDS):
@@ -184,10 +191,7 @@ def spin_equilibrium(
             step *= np.minimum(1, 0.3 * contacts.cap / np.maximum(longest, 1e-300))
             q += step * scale
         away = reach - seat
-        angles = (
-            np.arctan2(away[..., 1], away[..., 0]),
-            np.arctan2(seat[..., 1], seat[..., 0]),
-        )
+        angles = _angle(away), _angle(seat)
         if (change <= _WANTED).all() and small.all():
             break
     if (change > _ALLOWED).any() or not small.all():
@@ -197,12 +201,14 @@ def spin_equilibrium(
             f"{unresolved(residual[worst], rounding[worst], total)}; "
             f"change of inertia {change[worst]:.3g}"
         )
+    tangent = _slope(balls, omega[:, None, None], reach, push, seat)
+    stiffness = np.einsum("kbia,nkbij,kbjc->nac", jacobian, tangent, jacobian, optimize=True)
     full = (*shape, *reach.shape[1:3])
     spin = (np.hypot(*np.moveaxis(pull, -1, 0)), outer, *angles, centrifugal, gyroscopic)
     rings = replace(
         rest,
         displacement=q.reshape(*shape, 5),
-        form_stiffness=FormedStiffness(hessian.reshape(*shape, 5, 5)),
+        form_stiffness=FormedStiffness(stiffness.reshape(*shape, 5, 5)),
         residual=residual.reshape(shape),
         iterations=np.full(shape, total),
         converged=np.full(shape, True),
@@ -226,22 +232,29 @@ def _directions(contacts: Contacts) -> Array:
 def _inertia(balls: _Balls, omega: Array, inner: Array, outer: Array) -> tuple[Array, Array, Array]:
     """Dead load (r, z) on each ball, centrifugal force, gyroscopic moment.
 
-    With outer raceway control the friction that holds the gyroscopic moment acts there alone, so
-    that the inner ring feels none of it.
+    Balls roll on both raceways and do not spin on the outer one, so that across the axis they turn
+    with the orbital speed times sin α_o d_m/D. With outer raceway control the friction that holds
+    the gyroscopic moment acts there alone, so that the inner ring feels none of it.
     """
     ratio = balls.diameter / balls.pitch
-    # balls roll on both raceways, and do not spin on the outer one
     orbit = omega * (1 - ratio * np.cos(inner)) / (1 + np.cos(inner - outer))
-    tan = np.sin(outer) / (np.cos(outer) + ratio)
-    pitch = np.arctan(tan)
-    sides = (np.cos(outer) + tan * np.sin(outer)) / (1 + ratio * np.cos(outer))
-    sides = sides + (np.cos(inner) + tan * np.sin(inner)) / (1 - ratio * np.cos(inner))
-    own = omega / (sides * ratio * np.cos(pitch))
     centrifugal = balls.mass * balls.pitch / 2 * orbit**2
-    gyroscopic = balls.mass * balls.diameter**2 / 10 * own * orbit * np.sin(pitch)
-    friction = 2 * gyroscopic / balls.diameter
+    friction = 4 * _SPHERE * centrifugal * np.sin(outer)
     push = np.stack([centrifugal - friction * np.sin(outer), friction * np.cos(outer)], axis=-1)
-    return push, centrifugal, gyroscopic
+    return push, centrifugal, friction * balls.diameter / 2
+
+
+def _inertia_slopes(balls: _Balls, omega: Array, inner: Array, outer: Array) -> tuple[Array, Array]:
+    """Derivatives of the dead load (r, z) by the inner and by the outer contact angle, N/rad."""
+    push, centrifugal, _ = _inertia(balls, omega, inner, outer)
+    ratio = balls.diameter / balls.pitch
+    apart = np.tan((inner - outer) / 2)
+    by_inner = ratio * np.sin(inner) / (1 - ratio * np.cos(inner)) + apart  # of log orbital speed
+    turned = np.stack([-np.sin(2 * outer), np.cos(2 * outer)], axis=-1)
+    return (
+        2 * by_inner[..., None] * push,
+        -2 * apart[..., None] * push + 4 * _SPHERE * centrifugal[..., None] * turned,
+    )
 
 
 def _seats(
@@ -254,7 +267,6 @@ def _seats(
     with a cap on the step, until `quiet` (N) or nothing more moves.
     """
     limit = 0.2 * (balls.inner_gap + balls.outer_gap)
-    floor = 1e-9 * balls.outer * balls.outer_gap**0.5
     dead = np.hypot(push[..., 0], push[..., 1])
     lies = (balls.outer_gap + (dead / balls.outer) ** (2 / 3)) / np.maximum(dead, 1e-300)
     alone = push * lies[..., None]
@@ -264,7 +276,7 @@ def _seats(
     at = _unbalanced(balls, reach, push, b)
     for _ in range(_INNER_STEPS):
         wrong, h_inner, h_outer, outer, energy = at
-        hessian = h_inner + h_outer + floor * np.eye(2)
+        hessian = h_inner + h_outer + balls.least
         step = np.linalg.solve(hessian, wrong[..., None])[..., 0]
         size = np.hypot(step[..., 0], step[..., 1])
         settled = size <= 1e-14 * balls.outer_gap
@@ -298,6 +310,27 @@ def _unbalanced(
     stored = inner ** (5 / 3) / balls.inner ** (2 / 3) + outer ** (5 / 3) / balls.outer ** (2 / 3)
     energy = 0.4 * stored - (push * b).sum(axis=-1)
     return pull - back + push, h_inner, h_outer, outer, energy
+
+
+def _slope(balls: _Balls, omega: Array, reach: Array, push: Array, seat: Array) -> Array:
+    """Slope of the force on the inner ring, the ball and its inertia in balance, (..., 2, 2)."""
+    away = reach - seat
+    _, h_inner, h_outer, _, _ = _unbalanced(balls, reach, push, seat)
+    by_inner, by_outer = _inertia_slopes(balls, omega, _angle(away), _angle(seat))
+    moved = h_inner + by_inner[..., :, None] * _turning(away)[..., None, :]
+    held = h_outer - by_outer[..., :, None] * _turning(seat)[..., None, :] + balls.least
+    return np.asarray(h_inner - h_inner @ np.linalg.solve(moved + held, moved))
+
+
+def _angle(vector: Array) -> Array:
+    """Angle of (r, z) from the radial plane, rad."""
+    return np.asarray(np.arctan2(vector[..., 1], vector[..., 0]))
+
+
+def _turning(vector: Array) -> Array:
+    """Derivative of that angle by (r, z), rad/m."""
+    across = np.stack([-vector[..., 1], vector[..., 0]], axis=-1)
+    return np.asarray(across / np.square(vector).sum(axis=-1, keepdims=True))
 
 
 def _spring(stiffness: float, gap: float, vector: Array) -> tuple[Array, Array, Array]:
