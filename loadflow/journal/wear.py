@@ -160,6 +160,8 @@ class Cycle:
         increases = bool(np.all(np.diff(self.time) > 0)) and n[0] > 1
         require(increases, "time", f"{n[0]} times", "two or more, increasing")
         require(bool(0 <= self.count < np.inf), "count", self.count, "≥ 0, finite")
+        begins = self.start is None or self.in_motion
+        require(begins, "start", self.start, "None of samples at rest (in_motion = False)")
 
     @property
     def seconds(self) -> Array:
