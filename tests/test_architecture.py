@@ -197,7 +197,14 @@ def test_files_are_short():
     assert found - LONGER == set()
 
 
-CALLED_BY_OTHERS = {"emit", "generic_resolve", "handleError", "on_end", "on_start"}
+CALLED_BY_OTHERS = {
+    "emit",
+    "generic_resolve",
+    "handleError",
+    "on_end",
+    "on_start",
+    "get_source_stamp",
+}
 """Methods that logging and numba call, by names that they chose."""
 
 
