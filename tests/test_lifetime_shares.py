@@ -257,10 +257,12 @@ def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():
             "roughness": 2e-6, "contact_modulus": 1e11, "factor": 1e-3}}},
     }  # fmt: skip
 
-    def said(per_year=None, **keys):
+    def said(per_year=None, motion="transient", **keys):
         wear = {"law": {"coefficient": 1e-17}} | keys
         lifetime = {"per_year": per_year or {}, "years": 25.0}
-        return unused_keys(make_scene(base | {"wear": wear, "lifetime": lifetime}))
+        journal = base["journal"] | {"motion": motion}
+        more = {"wear": wear, "lifetime": lifetime, "journal": journal, "accuracy": "given"}
+        return unused_keys(make_scene(base | more))
 
     assert "wear.events" not in said({"3.1": 5}, events=7)
     assert "wear.events" not in said({"3.1": 5, "4.1": 5})  # as it is by default
@@ -272,3 +274,4 @@ def test_a_scene_is_told_which_numbers_of_events_no_wear_takes():
     assert "wear.counts" not in told
     assert "no load case 1.2" in said(counts={"1.2": 5})["wear.counts"]
     assert "lifetime.years" not in said({"1.2": 5})  # production wears, too
+    assert "lifetime.years" in said({"1.2": 5}, motion="quasi-static")  # but not films at rest

@@ -119,6 +119,9 @@ class Cycle:
         How the shaft lies, rad and 1/m, as in `JournalBearing.orbit`.
     name : str
         For messages and tables.
+    start : array (2,), optional
+        First eccentricity in motion, m, in the bore as new; in a worn bore as far from where the
+        shaft would lie at rest. Left out, the shaft begins there.
 
     Raises
     ------
@@ -141,10 +144,12 @@ class Cycle:
     tilt: Array | None = None
     bend: Array | None = None
     name: str = "cycle"
+    start: Array | None = None
 
     def __post_init__(self) -> None:
         n = np.asarray(self.time, dtype=float).shape
         shapes = {"time": n, "speed": n, **dict.fromkeys(("force", "tilt", "bend"), (*n, 2))}
+        shapes |= {"start": (2,)}
         for key, shape in shapes.items():
             if (values := getattr(self, key)) is None:
                 continue
@@ -155,12 +160,19 @@ class Cycle:
         increases = bool(np.all(np.diff(self.time) > 0)) and n[0] > 1
         require(increases, "time", f"{n[0]} times", "two or more, increasing")
         require(bool(0 <= self.count < np.inf), "count", self.count, "≥ 0, finite")
+        begins = self.start is None or self.in_motion
+        require(begins, "start", self.start, "None of samples at rest (in_motion = False)")
 
     @property
     def seconds(self) -> Array:
         """Time that each sample stands for, (n,), s; that of the whole cycle in all."""
         steps = np.diff(self.time)
         return 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
+
+    def line(self, some: slice = slice(None)) -> dict[str, Any]:
+        """How the shaft lies at `some` of the times, by the keywords of `JournalBearing.orbit`."""
+        lines = {"tilt": self.tilt, "bend": self.bend}
+        return {key: values[some] for key, values in lines.items() if values is not None}
 
     def distance(self, radius: float) -> Array:
         """Sliding distance of each sample on a shaft of `radius`, m, (n,), m."""
@@ -228,9 +240,16 @@ def wear_bearing(
     require(fits, "worn", depth.shape, allowed)
     life, work, left, rows = 0.0, 0.0, 0.0, list[dict[str, Any]]()
     rough, weight = contact, np.zeros(surface.shape)
+    offsets = [
+        None if cycle.start is None else cycle.start - _first_place(bearing, cycle, film, control)
+        for cycle in cycles
+    ]
     for _ in range(wear.max_renewals):
         now = surface.worn(depth)
-        runs = [_Run.of(now, cycle, replace(film, contact=rough), control) for cycle in cycles]
+        runs = [
+            _Run.of(now, cycle, replace(film, contact=rough), control, offset)
+            for cycle, offset in zip(cycles, offsets)
+        ]
         rows.append(_told(life, depth, surface, rough, runs))
         if life >= 1.0:
             break
@@ -296,6 +315,19 @@ def _checked(bearing: JournalBearing, cycles: Sequence[Cycle], film: Film, wear:
     return contact
 
 
+def _first_place(
+    bearing: JournalBearing, cycle: Cycle, film: Film, control: Control | None
+) -> Array:
+    """Eccentricity (2,), m, at rest under the first load of a cycle."""
+    first = slice(0, 1)
+    given, line = (cycle.force[first], cycle.speed[first]), cycle.line(first)
+    try:
+        rest = bearing.equilibrium(*given, film, control=control, **line)
+    except SolverError as error:
+        raise SolverError(f"{cycle.name}: {error}") from error
+    return np.asarray(rest.eccentricity)[0]
+
+
 @dataclass(frozen=True)
 class _Run:
     """A cycle in the bore as it is worn, by the names of `JournalBearing.orbit`, arrays (n, …)."""
@@ -304,17 +336,22 @@ class _Run:
     found: dict[str, Array]
 
     @classmethod
-    def of(cls, bearing: JournalBearing, cycle: Cycle, film: Film, control: Control | None) -> _Run:
-        """Follow a cycle, or solve each of its samples."""
-        line: dict[str, Any] = {
-            key: values
-            for key, values in (("tilt", cycle.tilt), ("bend", cycle.bend))
-            if values is not None
-        }
+    def of(
+        cls,
+        bearing: JournalBearing,
+        cycle: Cycle,
+        film: Film,
+        control: Control | None,
+        offset: Array | None,
+    ) -> _Run:
+        """Follow a cycle, first by `offset` (2,), m, from rest, or solve each of its samples."""
+        line = cycle.line()
         names = ("eccentricity", "contact_force", "contact_share", "contact_power",
                  "friction_power", "minimum_film", "contact_pressure")  # fmt: skip
         try:
             if cycle.in_motion:
+                if offset is not None:
+                    line["start"] = _first_place(bearing, cycle, film, control) + offset
                 path = bearing.orbit(
                     cycle.time, cycle.force, cycle.speed, film, control=control, **line
                 )

@@ -21,8 +21,8 @@ class Lifetime(Section, BaseModel):
     asks for those of 2.3, 2.4, 3.1 and 4.1; variants of one, such as 3.1a and 3.1b, share its
     number evenly unless they have their own. They take their number times their length of the
     lifetime, with their damage and their energy; production and idling share the rest. Without a
-    number an event has no share. Wear takes ``per_year`` times ``years`` of a load case for which
-    ``wear.counts`` says nothing.
+    number an event has no share. Wear takes ``per_year`` times ``years`` of a case that starts,
+    stops or stands, for which ``wear.counts`` says nothing, and of others their share of ``years``.
 
     Examples
     --------

@@ -418,10 +418,14 @@ def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
 
 
 def _of_lifetime(scene: Scene) -> Iterator[tuple[str, str]]:
+    if "journal.wear" not in scene.results:
+        yield "years", "the result journal.wear is not wanted"
+        return
     counted = set(filter(stands_or_starts, scene.lifetime.per_year)) - {*scene.wear.counts}
     given = scene.loads.source == "files"  # whose load cases are known when they are read
-    produces = given or not all(map(stands_or_starts, scene.loads.dlcs))
-    if "journal.wear" not in scene.results or not (counted or produces):
+    moves = scene.journal.in_motion or scene.asks  # then the plan may let films move
+    produces = moves and (given or not all(map(stands_or_starts, scene.loads.dlcs)))
+    if not (counted or produces):
         yield "years", "all that wears has its number in wear.events or wear.counts"
 
 

@@ -119,7 +119,22 @@ def cycles_of(
         return []
     whole = float(energy.sum() / sum(energy[one].sum() for one in kept))
     given = options, film, loads, shaft
-    return [replace(_lying(time[one], *given), count=whole) for one in kept]
+    return [
+        replace(_lying(time[one], *given), count=whole, start=_place(options, film, one.start))
+        for one in kept
+    ]
+
+
+def _place(options: Journal, film: xr.Dataset, sample: int) -> NDArray[np.float64] | None:
+    """Eccentricity (2,), m, of a sample in the bore as stated; None where it has no answer.
+
+    At rest under the first load the shaft would touch long before squeeze lets it.
+    """
+    found = film.isel(sample=sample)
+    place = found["eccentricity"].values.astype(float)
+    if "clearance" in found:  # that of the warm bore
+        place *= options.geometry.clearance / float(found["clearance"])
+    return place if np.isfinite(place).all() else None
 
 
 def _spells(rubs: NDArray[np.bool_], most: int) -> Iterator[slice]:

@@ -176,7 +176,8 @@ def _warm(options: Friction, parts: Collection[FurtherBearing] = ()) -> str:
     air, stated = (t - CELSIUS for t in (options.ambient_temperature, options.temperature))
     cooled = [f"{place} {_one(cooling)}" for place, cooling in options.cooling.items()]
     own = [part for part in parts if part.bearing not in options.cooling]
-    housed = {_one(one) for part in own if (one := options.cooling_of(part)) is not None}
+    stated_by = [one for part in own if (one := options.cooling_of(part)) is not None]
+    housed = {_one(one) for one in stated_by}
     if options.conductance is not None:
         cooled.append(f"{'others ' if cooled else ''}{options.conductance:g} W/K")
     elif housed:
@@ -185,8 +186,8 @@ def _warm(options: Friction, parts: Collection[FurtherBearing] = ()) -> str:
         cooled.append(f"others {stated:.0f} °C as stated")
     if not cooled:
         return f"{stated:.0f} °C"
-    measured = all(one.temperature is not None for one in options.cooling.values())
-    if options.conductance is None and not housed and measured:
+    every = (*options.cooling.values(), *stated_by)
+    if options.conductance is None and all(one.temperature is not None for one in every):
         return ", ".join(cooled)
     return f"as warm as its heat balance has it, {', '.join(cooled)}; the air {air:.0f} °C"
 

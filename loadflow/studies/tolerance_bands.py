@@ -109,17 +109,16 @@ def with_bands(one: Judged, run: Finished, spectrum: xr.DataTree, given: AsBuilt
 
 
 def _friction(run: Finished) -> Friction:
-    """The section of the scene; a bearing with a heat balance is as warm as in its warmest case."""
-    options = run.scene.friction
+    """The section of the scene, with the temperature of each bearing, as in its warmest case."""
     if "rolling" not in run.tables:
-        return options
-    table = run.tables["rolling"]["bearing_temperature"]
-    warmest = {
-        place: Cooling(temperature=float(table.sel(bearing=place).max()))
-        for place in options.balances(run.scene.rolling.bearings.values())
-    }
-    stated = {"cooling": options.cooling | warmest, "conductance": None}
-    return options.model_copy(update=stated)
+        return run.scene.friction
+    options, table = run.scene.friction, run.tables["rolling"]["bearing_temperature"]
+    parts = run.scene.rolling.bearings
+    warm = {place: options.temperature_of(part) for place, part in parts.items()}
+    for place in options.balances(parts.values()):
+        warm[place] = float(table.sel(bearing=place).max())
+    held = {place: Cooling(temperature=kelvin) for place, kelvin in warm.items()}
+    return options.model_copy(update={"cooling": held, "conductance": None})
 
 
 def _in_bores(scene: Scene, spectrum: xr.DataTree) -> xr.DataTree:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
@@ -22,7 +21,8 @@ BATCHES = 5.0
 """Factor by which published coefficients of wear of one pair of materials differ from batch to
 batch, at most of 2 … 5 (docs/mixed-friction.md)."""
 
-_FILM = ("time", "speed", "contact_share", "contact_power", "temperature", "tilt")
+_FILM = ("time", "speed", "contact_share", "contact_power", "temperature", "tilt",
+         "eccentricity", "clearance")  # fmt: skip
 _SHAFT = ("force", "tilt", "curvature")
 
 
@@ -53,13 +53,12 @@ class Rubbing:
         if options.heat is not None:
             held = options.at_temperature(options.heat.inlet_temperature + self.warmth)
         film, given = held.film_model, (cycle.force, cycle.speed)
-        lines = {"tilt": cycle.tilt, "bend": cycle.bend}
-        lying: dict[str, Any] = {key: line for key, line in lines.items() if line is not None}
-        bore = options.geometry
+        lying, bore = cycle.line(), options.geometry
         try:
             with unresolved_counted():  # the run has told of them
                 if cycle.in_motion:
-                    power = bore.orbit(cycle.time, *given, film, **lying)["contact_power"].values
+                    path = bore.orbit(cycle.time, *given, film, start=cycle.start, **lying)
+                    power = path["contact_power"].values
                 else:
                     power = np.asarray(bore.equilibrium(*given, film, **lying).contact_power)
         except SolverError:

@@ -1,6 +1,7 @@
 """Each rolling bearing has its own cooling, in runs, comparisons and designs."""
 
 import tomllib
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ from loadflow.stages.rolling import warm_bearing
 from loadflow.studies.compare_friction import rolling_losses
 from loadflow.studies.compare_margins import lubrication
 from loadflow.studies.compare_words import _warm
+from loadflow.studies.tolerance_bands import _friction
 
 AIR = 288.15
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
@@ -164,6 +166,20 @@ def test_a_stated_temperature_of_one_bearing_goes_before_that_of_all():
     assert friction.conductance_of(N2) == friction.of(N2).conductance == 60.0
     warmer = friction.warmed(lambda kelvin: kelvin + 5.0)
     assert (warmer.temperature_of(N), warmer.temperature_of(N2)) == (335.0, 318.15)
+
+
+def test_a_temperature_that_a_bearing_states_itself_moves_with_its_tolerance_and_is_no_balance():
+    bearing = {"kind": "ball", "geometry": BALLS, "cooling": {"temperature": 330.0}}
+    data = {"name": "x", "results": ["rolling.life"], "shaft": {"moment": {}}}
+    scene = make_scene(data | {"bearings": {"M": bearing}})
+    (part,) = scene.rolling.bearings.values()
+    table = xr.Dataset(
+        {"bearing_temperature": (("case", "bearing"), [[330.0]])}, {"bearing": ["M"]}
+    )
+    held = _friction(SimpleNamespace(scene=scene, tables={"rolling": table}))
+    assert held.temperature_of(part) == 330.0
+    assert held.warmed(lambda kelvin: kelvin + 5.0).temperature_of(part) == 335.0
+    assert _warm(scene.friction, [part]) == "57 °C as stated"
 
 
 def test_sized_bearings_have_the_cooling_of_their_machine_unless_the_scene_states_another():

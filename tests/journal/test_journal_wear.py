@@ -1,5 +1,7 @@
 """Worn bores: volume, contour and depth against closed forms, and what the film does afterwards."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -239,6 +241,8 @@ def test_bad_cycles_and_an_endless_life_are_told():
         Cycle([0.0, 1.0], [1.0, 2.0], [0.0, 0.0])
     with pytest.raises(InputError, match="increasing"):
         Cycle([1.0, 0.0], [(1.0, 2.0)] * 2, [0.0, 0.0])
+    with pytest.raises(InputError, match="in_motion"):
+        replace(start(in_motion=False), start=(0.0, 0.0))
     with pytest.raises(SolverError, match="after 2 films"):
         wear_bearing(BEARING, [start(1e6)], film(), Wear(Archard(1e-15), max_renewals=2))
 
@@ -304,6 +308,7 @@ def production(rubs, power, step=0.1):
             "speed": ("sample", 0.5 * ones),
             "contact_share": ("sample", 0.5 * np.array(rubs)),
             "contact_power": ("sample", np.array(power, dtype=float)),
+            "eccentricity": (("sample", "component"), np.full((count, 2), np.nan)),
         }
     )
     loads = xr.Dataset({"speed": ("time", 0.5 * ones)}, {"time": time})
@@ -318,17 +323,50 @@ def test_spells_of_contact_that_rub_most_stand_for_all_of_a_load_case():
     rubs = np.isin(np.arange(40), [5, 6, 20, 21, 22, 30])
     power = np.where(rubs, 1.0, 0.0) + 2.0 * (np.arange(40) == 21)
     film, loads, shaft = production(rubs, power)
+    film["eccentricity"].values[19] = 1e-4, 2e-5
     asked = scene.journal.at("N"), film, loads, shaft.sel(bearing="N")
     first, second = stage.cycles_of("1.2", scene, *asked)
     np.testing.assert_allclose(first.time, 0.1 * np.arange(19, 24))  # the hardest, 5 J
     np.testing.assert_allclose(second.time, 0.1 * np.arange(4, 8))  # 2 J; of 1 J there is no room
     assert first.count == second.count == pytest.approx(8.0 / 7.0)
     assert first.in_motion
+    assert first.start.tolist() == [1e-4, 2e-5]  # where the shaft was then
+    assert second.start is None
     (whole,) = stage.cycles_of("3.1", scene, *asked)  # a start is one from first to last
     assert whole.time[0] == pytest.approx(0.4)
     assert whole.time[-1] > 3.0
     still = changed(journal={"motion": "quasi-static"})
     assert stage.cycles_of("1.2", still, still.journal.at("N"), *asked[1:]) == []
+
+
+def test_a_spell_that_begins_where_its_shaft_was_rubs_as_along_the_whole_path():
+    """From rest it touches long before squeeze lets it: 20 times as much."""
+    bearing = JournalBearing(diameter=2.0, width=1.5, relative_clearance=1e-3)
+    tips = AsperityContact(roughness=2e-6, contact_modulus=46e9, factor=1e-3)
+    oil = film(GasMixture(5e4), 1.5e5, grid=(96, 16), inlet=None, rung="reduced")
+    oil = replace(oil, lubricant=Lubricant(0.03), contact=Contact(tips))
+    time = np.arange(0.0, 20.0, 0.05)
+    force = np.zeros((time.size, 2))
+    force[:, 0] = 2e6 + 12e6 * np.exp(-(((time - 15.0) / 0.3) ** 2))
+    speed = np.full(time.size, 0.2)
+    path = bearing.orbit(time, force, speed, oil)
+    touches = np.flatnonzero(path["contact_share"].values > 1e-3)
+    some = slice(touches[0] - 1, touches[-1] + 2)
+    spell = Cycle(time[some], force[some], speed[some])
+    place = path["eccentricity"].values[some.start]
+    whole = spell.seconds @ path["contact_power"].values[some]
+
+    def energy(cycle, renewal):
+        found = wear_bearing(bearing, [cycle], oil, Wear(Archard(1e-17)))
+        return float(found.history["contact_energy"][renewal, 0])
+
+    placed = replace(spell, start=place)
+    assert energy(placed, 0) == pytest.approx(whole, rel=0.3)  # but for gas on its way
+    assert energy(spell, 0) > 5.0 * whole
+    worn = replace(placed, count=1e3)
+    found = wear_bearing(bearing, [worn], oil, Wear(Archard(1e-17)))
+    assert found.depth.max() > 0
+    assert 0.1 * whole < float(found.history["contact_energy"][-1, 0]) < 2.0 * whole
 
 
 @pytest.mark.parametrize("rung", ["reduced", "grid"])
