@@ -22,7 +22,7 @@ from loadflow.plots.style import readable
 from loadflow.quantities import four_digits, percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
-from loadflow.report.page import Shown, write_tables
+from loadflow.report.page import ZERO, Shown, write_tables
 from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
 from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables
@@ -336,10 +336,14 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
 
 
 def _case_table(data: xr.Dataset) -> Table:
-    """One row for each case (and bearing), one column for each number that is ever not zero."""
+    """One row for each case (and bearing), one column for each number that is ever not zero.
+
+    What is zero, and what no case has, as times of starts where nothing starts, is named below.
+    """
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
     names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
-    empty = [n for n in names if not np.nan_to_num(data[n].values.astype(float)).any()]
+    numbers = {n: data[n].values.astype(float) for n in names}
+    empty = [n for n in names if not np.nan_to_num(numbers[n]).any()]
     dims = [dim for dim in ("bearing", "case") if dim in data.dims]
     shown = {
         n: readable(data[n], "µm" if data[n].attrs.get("units") == "m" and "film" in n else None)
@@ -364,9 +368,11 @@ def _case_table(data: xr.Dataset) -> Table:
         for b, bearing in enumerate(bearings)
     ]
     bad = frozenset(map(int, np.flatnonzero(counts.T.ravel() > 0)))
-    zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
-    note = f"Zero in all cases: {zero}." if zero else ""
-    return Table("", ["case", *heads], rows, bad, note=note)
+    left_out: dict[str, list[str]] = {ZERO: [], "In no case": []}
+    for n in empty:
+        why = "In no case" if np.isnan(numbers[n]).all() else ZERO
+        left_out[why].append(str(data[n].attrs["long_name"]))
+    return Table("", ["case", *heads], rows, bad, left_out=left_out)
 
 
 def _check_section(check: xr.Dataset) -> Section:

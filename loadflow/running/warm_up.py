@@ -43,6 +43,7 @@ from loadflow.running.folder import part_file
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.telling import Task, times_left
 from loadflow.scene.cases import Case
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES
@@ -125,7 +126,8 @@ def compile_for_pilot(
 def without_own_kernels(questions: Questions, model: str) -> Questions | None:
     """Questions about a model without the effects that have kernels of their own, if it has any.
 
-    None where one of these is never asked to be out, but to have no size.
+    None where one of these is never asked to be out, but to have no size; and where films without
+    them have the same loops.
     """
     ours = [one for one in EFFECTS if one.probed == model and one.name in questions.effects]
     if any(one.muted(switched(questions.scene, one, True) or questions.scene) for one in ours):
@@ -135,9 +137,20 @@ def without_own_kernels(questions: Questions, model: str) -> Questions | None:
     for effect in ours:
         if effect.own_kernels:
             scene = switched(scene, effect, False) or scene
-    if not asked or scene is questions.scene:
+    same = model == "journal" and _share_loops(questions.scene.journal, scene.journal)
+    if not asked or scene is questions.scene or same:
         return None
     return replace(questions, scene=scene, effects=asked)
+
+
+def _share_loops(full: Journal, bare: Journal) -> bool:
+    """Whether films have the same compiled loops with some effects and without.
+
+    On "reduced" those around a tilted shaft do, but for a shell that gives way all over.
+    """
+    shells = [full.at(name).shell for name in full.bearings if bare.at(name).shell is None]
+    all_over = any(shell is not None and not shell.local for shell in shells)
+    return bare.rung == "reduced" and bare.tilt and not all_over
 
 
 @contextmanager
