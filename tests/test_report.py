@@ -22,7 +22,8 @@ from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed, seed_verdicts
 from loadflow.running.answers_page import answer_row, without_film
-from loadflow.running.report_page import _spread, _took, report_is_current, write_report
+from loadflow.running.report_page import _spread, _took, write_report
+from loadflow.running.report_state import report_is_current
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import make_scene

@@ -237,39 +237,6 @@ def write_tables(folder: Path, sections: Sequence[Section]) -> list[Path]:
     return [*found]
 
 
-def mark_of(path: Path) -> str | None:
-    """Return the mark that a page was written with; None without a page or a mark.
-
-    Parameters
-    ----------
-    path : Path
-        The page.
-
-    Returns
-    -------
-    str or None
-        The mark.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from loadflow.report import mark_of, write_page
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     mark_of(write_page(Path(folder) / "page.html", "Look", {}, [], mark="4711"))
-    '4711'
-    """
-    if not path.is_file():
-        return None
-    with path.open(encoding="utf-8", errors="replace") as stream:
-        found = _MARK.search(stream.read(_HEAD))
-    return found[1] if found else None
-
-
-_HEAD = 1000  # characters in which the mark is found
-_MARK = re.compile(r'<meta name="made-of" content="([^"]+)">')
-
-
 def asset(name: str) -> str:
     """Text of a file that the page brings along."""
     return (ASSETS / name).read_text(encoding="utf-8")

@@ -31,12 +31,12 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-import loadflow
 from loadflow.cube import make_case
 from loadflow.planning.effects import switched
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
+from loadflow.running.code_stamp import code_stamp
 from loadflow.running.compiling import Compiling, few_collections
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
@@ -351,13 +351,8 @@ def made_up_loads(scene: Scene, case: Case) -> xr.Dataset:
 
 def _marks(needed: object) -> list[Path]:
     """Where the mark of these kernels may be, in the order in which numba chooses its folder."""
-    root = Path(loadflow.__file__).parent
-    told = hashlib.sha256()
-    for file in sorted(root.rglob("*.py")):
-        found = file.stat()
-        told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
     machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
-    told.update(repr((needed, machine)).encode())
+    told = hashlib.sha256(repr((code_stamp(), needed, machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"
     return [folder / name for folder in kernel_folders()]
 
