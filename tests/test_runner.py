@@ -204,7 +204,7 @@ def test_a_finished_run_asks_for_no_processes_until_something_is_left_to_do(
         again = run_on(no_processes(), scene_of(cube), tmp_path, report=False)
         assert_same(again.tree, finished.tree)
         assert again.warnings == finished.warnings
-        assert again.verdicts == finished.verdicts
+        assert str(again.verdicts) == str(finished.verdicts)  # NaN is itself there
         assert (again.unused, again.shortfalls) == (finished.unused, finished.shortfalls)
     part = tmp_path / "small/journal/dlc1.1_v8_s2.h5"
     for spoil in (lambda: part.write_bytes(part.read_bytes()[:-200]), part.unlink):

@@ -70,10 +70,17 @@ def check_settings(folder: Path, scene: Scene) -> None:
 
 
 def _changed(stated: Any, before: Any, place: str) -> Iterator[str]:
-    """Keys that are stated, and were others; a value that either lacks is none of them."""
+    """Keys that are stated, and were others; a value that either lacks is none of them.
+
+    Neither is a lubricant of films: a plan that leaves their heat out writes its own viscosity.
+    """
     if isinstance(stated, dict) and isinstance(before, dict):
         for key, value in stated.items():
-            yield from _changed(value, before.get(key), f"{place}.{key}")
+            if key != "lubricant":
+                yield from _changed(value, before.get(key), f"{place}.{key}")
+    elif isinstance(stated, list) and isinstance(before, list) and len(stated) == len(before):
+        for k, (value, other) in enumerate(zip(stated, before)):
+            yield from _changed(value, other, f"{place}[{k}]")
     elif None not in (stated, before) and stated != before:
         yield place
 
