@@ -102,6 +102,12 @@ def test_a_windio_file_is_a_turbine_of_a_scene():
     assert load_turbine(scene.turbine.name).rated_power == 15e6
 
 
+def test_a_turbine_file_that_is_not_there_is_told_under_the_key_as_written(tmp_path):
+    for key in ("file", "name"):
+        with pytest.raises(InputError, match=rf"turbine\.{key}: .*gone\.toml does not exist"):
+            make_scene({"turbine": {key: str(tmp_path / "gone.toml")}})
+
+
 def test_a_turbine_file_that_changes_is_another_input(larger):
     data = {"turbine": {"file": str(larger)}}
     before = make_scene(data).digest("turbine")

@@ -22,7 +22,8 @@ from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed, seed_verdicts
 from loadflow.running.answers_page import answer_row, without_film
-from loadflow.running.report_page import _spread, _took, report_is_current, write_report
+from loadflow.running.report_page import _spread, _took, write_report
+from loadflow.running.report_state import report_is_current
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
 from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import make_scene
@@ -132,7 +133,19 @@ def test_forces_that_a_bearing_never_carries_have_no_column_but_a_note(page):
     text = page.read_text()
     assert "<p>Zero in all cases: Fx of bearing N" in text  # which floats
     assert {"journal-bearing.csv", "rolling-bearing.csv"} <= {p.name for p in tables.iterdir()}
-    assert "<p>Zero in all cases: " in text.split("<h2>Journal bearing</h2>")[1]
+    films = text.split("<h2>Journal bearing</h2>")[1]
+    [zero] = re.findall(r"<summary>Zero in all cases: \d+ columns</summary><p>([^<]*)", films)
+    [none] = re.findall(r"<summary>In no case: \d+ columns</summary><p>([^<]*)", films)
+    assert "samples without an answer" in zero
+    assert "speed of the transition at E_krit" in none  # nothing starts
+
+
+def test_a_speed_does_no_damage(page):
+    loads = pd.read_csv(page.parent / "tables/loads-loads.csv", dtype=str)
+    told = loads.set_index("over all cases").filter(like="DEL")
+    [speed] = [name for name in told.index if name.startswith("speed,")]
+    assert (told.loc[speed] == "-").all()
+    assert (told.drop(speed)["mean DEL (m = 4)"].astype(float) > 0).any()
 
 
 def test_every_table_stands_beside_the_page_as_csv_and_no_old_one(page):

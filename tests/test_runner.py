@@ -3,8 +3,11 @@
 import json
 import shutil
 import sys
+import tomllib
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import contextmanager
 from multiprocessing import get_context
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,8 +18,12 @@ import loadflow as lf
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, ValidityWarning
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import make_scene
+from loadflow.running.earlier import _changed
+from loadflow.running.runner import run_on
+from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
+
+PIPELINES = Path(__file__).parents[1] / "pipelines"
 
 
 def scene_of(cube, **keys):
@@ -161,11 +168,59 @@ def test_parts_of_other_settings_are_refused_unless_overwritten(cube, tmp_path):
     narrow = {"results": ["reduction.histogram"]}
     lf.run(scene_of(cube, **narrow), out=tmp_path, report=False)
     other = scene_of(cube, **narrow, reduction={"size": 0.2})
-    with pytest.raises(InputError, match="'reduction' that were made with other settings"):
-        lf.run(other, out=tmp_path)
+    told = r"'reduction' that were made with other settings or inputs \(reduction\.size\)"
+    with pytest.raises(InputError, match=told):  # before a process is asked for, or a pilot
+        run_on(no_processes(), other, tmp_path)
     lf.run(other, out=tmp_path, overwrite=True, report=False)
     reduced = open_cube(tmp_path / "small" / "reduction" / "dlc1.1_v8_s1.h5")
     assert reduced["N"].sizes["sample"] >= 0.2 * 400
+
+
+def test_load_cases_of_other_content_are_refused_before_anything_works(cube, tmp_path):
+    own = tmp_path / "own.h5"
+    shutil.copy(cube, own)
+    lf.run(scene_of(own, results=["loads.statistics"]), out=tmp_path, report=False)
+    own.unlink()
+    cube_file(own, wind_speeds=(8.0,))
+    with pytest.raises(InputError, match=r"'loads' .* \(the content of .*own\.h5\)"):
+        run_on(
+            no_processes(),
+            scene_of(own, results=["loads.statistics"], seeds={"alpha": 0.1}),
+            tmp_path,
+        )
+
+
+@contextmanager
+def no_processes():
+    pytest.fail("processes are asked for")
+    yield
+
+
+def test_a_finished_run_asks_for_no_processes_until_something_is_left_to_do(
+    cube, finished, tmp_path
+):
+    shutil.copytree(finished.path, tmp_path / "small")
+    for _ in range(2):
+        again = run_on(no_processes(), scene_of(cube), tmp_path, report=False)
+        assert_same(again.tree, finished.tree)
+        assert again.warnings == finished.warnings
+        assert str(again.verdicts) == str(finished.verdicts)  # NaN is itself there
+        assert (again.unused, again.shortfalls) == (finished.unused, finished.shortfalls)
+    part = tmp_path / "small/journal/dlc1.1_v8_s2.h5"
+    for spoil in (lambda: part.write_bytes(part.read_bytes()[:-200]), part.unlink):
+        spoil()
+        with pytest.raises(pytest.fail.Exception, match="processes are asked for"):
+            run_on(no_processes(), scene_of(cube), tmp_path, report=False)
+
+
+@pytest.mark.parametrize("name", ["quick_look", "dlc_3_1_startup", "friction"])
+def test_a_plan_keeps_the_keys_that_a_scene_states(name):
+    """So that a folder of other keys is refused by them before there is a plan."""
+    scene = read_scene(PIPELINES / f"{name}.toml")
+    planned = make_scene(tomllib.loads(make_plan(scene).scene.to_toml())).model_dump(mode="json")
+    stated = scene.model_dump(mode="json", exclude_unset=True)
+    rooms = {room: value for room, value in stated.items() if room not in ("name", "candidates")}
+    assert [*_changed(rooms, planned, "")] == []
 
 
 def test_a_further_result_uses_what_is_there(cube, tmp_path):

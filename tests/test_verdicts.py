@@ -239,7 +239,7 @@ def test_limits_are_those_of_the_scene_and_say_so(run):
         ("eccentricity ratio ε", {"eccentricity_ratio": 0.3}, 0.3),
         ("smallest film", {"minimum_film": 1e-3}, 1e-3),
         ("largest Sommerfeld number", {"sommerfeld_peak": 8.0}, 8.0),
-        ("most mean Sommerfeld number", {"sommerfeld_range": (0.1, 0.2)}, 0.2),
+        ("largest mean Sommerfeld number", {"sommerfeld_range": (0.1, 0.2)}, 0.2),
         ("largest film pressure", {"material": ((400.0, 1e5),)}, 1e5),
         ("specific load F/(B D)", {"specific_load": 1e4}, 1e4),
     ):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from contextlib import nullcontext
+import tomllib
+from contextlib import ExitStack, nullcontext
 from math import isnan
 from pathlib import Path
 from typing import Annotated, Any
@@ -83,13 +84,16 @@ def run(
         show(f"reading {scene}", 0, 1)
         from loadflow.running.executor import executor, usable_cores
 
-        # before anything else: its processes read their modules for seconds, as this one does
-        with executor(workers or usable_cores(), scheduler) as where:
+        processes = executor(workers or usable_cores(), scheduler)
+        with ExitStack() as begun:
+            if not _was_run(scene, out_folder, name):
+                # before anything else: they read their modules for seconds, as this process does
+                processes = nullcontext(begun.enter_context(processes))
             from loadflow.running.profile import Profile
             from loadflow.running.runner import run_on
 
             result = run_on(
-                nullcontext(where),
+                processes,
                 read(scene, loads, name, **reading),
                 out_folder,
                 overwrite=overwrite,
@@ -118,6 +122,16 @@ def run(
     if result.failures:
         lines = "\n".join(f"  {case}: {why}" for case, why in result.failures.items())
         raise LoadflowError(f"{len(result.failures)} parts have no answer:\n{lines}")
+
+
+def _was_run(scene: Path, out_folder: Path, name: str | None) -> bool:
+    """Whether there are results of a run of that name: if nothing is left to do, none works."""
+    if name is None:
+        try:
+            name = str(tomllib.loads(scene.read_text(encoding="utf-8")).get("name", scene.stem))
+        except (OSError, ValueError):  # no TOML: what is wrong with it is told as it is read
+            return False
+    return (out_folder / name / "result.h5").is_file()
 
 
 def _print_profile(folder: Path) -> None:
@@ -298,13 +312,15 @@ def report(
     ] = False,
 ) -> None:
     """Write the report page of a run again, if its results have changed."""
-    from loadflow.running.report_page import report_is_current, write_report
+    from loadflow.running.report_state import report_is_current
 
-    finished = (run_folder / "result.h5").exists()
-    current = finished and not overwrite and report_is_current(run_folder)
-    out.print(str(write_report(run_folder, overwrite)), soft_wrap=True)
-    if current:
+    if (run_folder / "result.h5").exists() and not overwrite and report_is_current(run_folder):
+        out.print(str(run_folder / "report.html"), soft_wrap=True)
         err.print("nothing has changed since it was written; --overwrite writes it again")
+        return
+    from loadflow.running.report_page import write_report
+
+    out.print(str(write_report(run_folder, overwrite)), soft_wrap=True)
 
 
 @app.command()

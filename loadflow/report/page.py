@@ -28,8 +28,9 @@ LARGEST_SVG = 200_000
 class Table:
     """A table: a title, column heads and rows of text; `bad` holds the numbers of rows to mark.
 
-    `fold` hides it until its title is clicked; `note` stands below it. `links` leads from row and
-    column of a cell to a name within the page.
+    `fold` hides it until its title is clicked; `note` stands below it, and `left_out`: columns that
+    it does not have, by why; more than `FEW` are hidden until they are asked for. `links` leads
+    from row and column of a cell to a name within the page.
 
     Examples
     --------
@@ -45,6 +46,7 @@ class Table:
     bad: frozenset[int] = frozenset()
     fold: bool = False
     note: str = ""
+    left_out: Mapping[str, Sequence[str]] = field(default_factory=dict)
     links: Mapping[tuple[int, int], str] = field(default_factory=dict)
 
     @property
@@ -56,6 +58,12 @@ class Table:
             if any(len(row[k]) > _LONG or row[k][:1].isalpha() for row in self.rows)
         )
 
+
+ZERO = "Zero in all cases"
+"""Why a table has no column of a number."""
+
+FEW = 3
+"""Names of columns that are left out, which stand below a table in full."""
 
 _STEM = 60  # characters of the name of a file
 _LONG = 24  # characters of a number with its unit
@@ -187,6 +195,7 @@ def write_page(
         sections=sections,
         mark=mark,
         asset=asset,
+        few=FEW,
     )
 
 
@@ -226,39 +235,6 @@ def write_tables(folder: Path, sections: Sequence[Section]) -> list[Path]:
         csv.writer(text, lineterminator="\n").writerows([table.heads, *table.rows])
         write_text(path, text.getvalue())
     return [*found]
-
-
-def mark_of(path: Path) -> str | None:
-    """Return the mark that a page was written with; None without a page or a mark.
-
-    Parameters
-    ----------
-    path : Path
-        The page.
-
-    Returns
-    -------
-    str or None
-        The mark.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> from loadflow.report import mark_of, write_page
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     mark_of(write_page(Path(folder) / "page.html", "Look", {}, [], mark="4711"))
-    '4711'
-    """
-    if not path.is_file():
-        return None
-    with path.open(encoding="utf-8", errors="replace") as stream:
-        found = _MARK.search(stream.read(_HEAD))
-    return found[1] if found else None
-
-
-_HEAD = 1000  # characters in which the mark is found
-_MARK = re.compile(r'<meta name="made-of" content="([^"]+)">')
 
 
 def asset(name: str) -> str:

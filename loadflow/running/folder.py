@@ -6,7 +6,7 @@ import hashlib
 import json
 import logging
 import platform
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from importlib import metadata
 from pathlib import Path
@@ -61,6 +61,7 @@ _KINDS: dict[str, type | tuple[type, ...]] = {
     "effects": list,
     "expected_errors": dict,
     "wall_seconds": (int, float),
+    "finished": dict,
 }
 
 log = logging.getLogger("loadflow.run")
@@ -114,13 +115,13 @@ def answered(folder: Path, stage: str, cases: Iterable[str]) -> list[str]:
 
 def refinements(folder: Path, scene: Scene) -> list[str]:
     """Return the stages for which this scene has had to take a better model before, in order."""
-    manifest = _manifest(folder)
+    manifest = known_manifest(folder)
     return manifest["refined"] if manifest.get("wanted") == scene.digest() else []
 
 
 def known_verdict(folder: Path, scene: Scene) -> EffectVerdict | None:
     """Return what a pilot of this scene found before; None without one."""
-    manifest = _manifest(folder)
+    manifest = known_manifest(folder)
     found = manifest.get("pilot") if manifest.get("wanted") == scene.digest() else None
     return EffectVerdict.from_json(found) if found else None
 
@@ -180,7 +181,7 @@ def _numbers(part: Any) -> Any:
     return {key: _numbers(value) for key, value in part.items()} if known else number_of(part)
 
 
-def _manifest(folder: Path) -> dict[str, Any]:
+def known_manifest(folder: Path) -> dict[str, Any]:
     """What is known of earlier work; parts answer for themselves, so that it may be lost."""
     if not (folder / "manifest.json").exists():
         return {}
@@ -206,8 +207,12 @@ def finished_parts(folder: Path, plan: Plan) -> dict[str, int]:
 
 def save_result(folder: Path, tree: xr.DataTree, plan: Plan) -> None:
     """Write what all stages found, sealed with the fingerprint of the plan."""
-    told = "\n".join(step.digest for step in plan.steps)
-    save_part(tree, folder / "result.h5", hashlib.sha256(told.encode()).hexdigest())
+    save_part(tree, folder / "result.h5", seal_of_result(step.digest for step in plan.steps))
+
+
+def seal_of_result(digests: Iterable[str]) -> str:
+    """Fingerprint that a result is sealed with, of those of its stages in order."""
+    return hashlib.sha256("\n".join(digests).encode()).hexdigest()
 
 
 def results_of(folder: Path) -> dict[str, xr.Dataset] | None:
@@ -230,7 +235,8 @@ def _result(path: Path) -> Mapping[str, xr.DataTree]:
     return results.children if isinstance(results, xr.DataTree) else {}
 
 
-def _parts(folder: Path, stage: str) -> list[Path]:
+def parts_of(folder: Path, stage: str) -> list[Path]:
+    """Return the files of a stage that are there, of whatever load cases and settings."""
     return [*folder.glob(f"{stage}/*.h5"), *folder.glob(f"{stage}.h5")]
 
 
@@ -259,7 +265,8 @@ def prepare(
         _clear(folder, step.stage, step.digest, plan.cases, overwrite)
     for rest in _left_by_killed(folder, plan):
         rest.unlink()
-    manifest = _manifest(folder)
+    manifest = known_manifest(folder)
+    manifest.pop("finished", None)  # it is not, until nothing is left to do
     write_text(folder / "scene.toml", plan.scene.to_toml())
     manifest |= {
         MANIFEST.key: MANIFEST.version,
@@ -300,14 +307,10 @@ def _clear(
     folder: Path, stage: Stage, digest: str, cases: tuple[Case, ...], overwrite: bool
 ) -> None:
     """Leave only sound parts of these settings, and what is no part of a run."""
-    sealed = {path: digest_of(path) for path in _parts(folder, stage.name) if path.is_file()}
+    sealed = {path: digest_of(path) for path in parts_of(folder, stage.name) if path.is_file()}
     others = [path for path, made_with in sealed.items() if made_with not in (digest, None)]
     if others and not overwrite and stage.sample is None:  # a sample is cheap: made anew
-        raise InputError(
-            f"{folder}: holds {len(others)} finished parts of the stage {stage.name!r} that were "
-            "made with other settings or inputs; give the run another name (--name), or overwrite "
-            "it (--overwrite)"
-        )
+        raise InputError(other_parts(folder, stage.name, len(others)))
     for path in others:
         path.unlink()
     wanted = [path for path in part_files(folder, stage, cases) if path not in others]
@@ -316,6 +319,20 @@ def _clear(
         log.warning(
             "%s: damaged, or of an older version; it is made again (kept as %s)", path, kept.name
         )
+
+
+def other_parts(folder: Path, stage: str, count: int, keys: Sequence[str] = ()) -> str:
+    """Say that a folder holds parts of other settings, by which keys, and what helps."""
+    more = f" and {len(keys) - _TOLD} others" if len(keys) > _TOLD else ""
+    told = f" ({', '.join(keys[:_TOLD])}{more})" if keys else ""
+    return (
+        f"{folder}: holds {count} finished parts of the stage {stage!r} that were made with other "
+        f"settings or inputs{told}; give the run another name (--name), or overwrite it "
+        "(--overwrite)"
+    )
+
+
+_TOLD = 3  # keys that are named
 
 
 def _left_by_killed(folder: Path, plan: Plan) -> Iterator[Path]:

@@ -71,8 +71,8 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
             rows.append(
                 [
                     f"{label}, {unit}",
-                    *(four_digits(table[s].mean()) for s in ("mean", "std", "del")),
-                    "-" if share is None else _of_lifetime(table["del"], share),
+                    *(four_digits(table[s].mean()) for s in ("mean", "std")),
+                    *(("-", "-") if name == "speed" else _damage(table["del"], share)),
                     four_digits(table["min"].min()),
                     four_digits(table["max"].max()),
                 ]
@@ -103,9 +103,10 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
     yield Table("Ultimate loads", heads, ultimate)
 
 
-def _of_lifetime(loads: np.ndarray, share: np.ndarray) -> str:
-    """Damage-equivalent load of the lifetime."""
-    return four_digits(float(lifetime_equivalent_load(loads, share, SLOPE)))
+def _damage(loads: np.ndarray, share: np.ndarray | None) -> tuple[str, str]:
+    """Damage-equivalent load in the mean, and that of the lifetime; of loads alone."""
+    lifetime = None if share is None else float(lifetime_equivalent_load(loads, share, SLOPE))
+    return four_digits(loads.mean()), "-" if lifetime is None else four_digits(lifetime)
 
 
 def _axis(part: xr.DataArray) -> int:

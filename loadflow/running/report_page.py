@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
-import json
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +10,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-import loadflow
 from loadflow.errors import InputError
 from loadflow.planning.budget import Answer, answers, more_seeds
 from loadflow.planning.seeds_wanted import enough_seeds, of_run
@@ -22,7 +19,7 @@ from loadflow.plots.style import readable
 from loadflow.quantities import four_digits, percent
 from loadflow.report import Chart, Drawing, Picture, Section, Table, figures, mark_of, write_page
 from loadflow.report.charts import CLOSE, SAMPLES
-from loadflow.report.page import Shown, write_tables
+from loadflow.report.page import ZERO, Shown, write_tables
 from loadflow.report.run_charts import film_chart, over_wind_speed, reduction_chart, ring_chart
 from loadflow.report.sketch import sketch
 from loadflow.running.answers_page import answer_tables
@@ -41,6 +38,7 @@ from loadflow.running.lifetime_page import lifetime_of_loads, lifetime_section
 from loadflow.running.loads_page import loads_section
 from loadflow.running.moments_page import anchors_of, moments_section
 from loadflow.running.profile_page import profile_section
+from loadflow.running.report_state import fingerprint
 from loadflow.running.seeds_page import seed_section
 from loadflow.running.start_page import start_tables
 from loadflow.running.verdicts_page import lifetime_table, verdict_sentence, verdict_table
@@ -53,11 +51,6 @@ from loadflow.studies.lifetime_page import write_lifetime_tables
 
 TABLES = "tables"
 """Folder of a run that holds the tables of its report as CSV."""
-
-
-def report_is_current(folder: Path) -> bool:
-    """Whether the report of a run is there, and was made of the results that are there now."""
-    return mark_of(folder / "report.html") == _made_of(folder)
 
 
 def write_report(folder: Path, again: bool = False) -> Path:
@@ -82,11 +75,11 @@ def write_report(folder: Path, again: bool = False) -> Path:
     """
     if not (folder / "result.h5").exists():
         raise InputError(f"{folder}: no finished run here (result.h5 is missing)")
-    made_of = _made_of(folder)
+    manifest = read_manifest(folder)
+    made_of = fingerprint(folder)
     if not again and mark_of(folder / "report.html") == made_of:
         return folder / "report.html"
     scene = read_scene(folder / "scene.toml")
-    manifest = read_manifest(folder)
     tables = results_of(folder) or {}
     force_of = forces_of(folder)
     lives, options = lifetime_of_loads(folder, scene, tables, force_of)
@@ -103,31 +96,6 @@ def write_report(folder: Path, again: bool = False) -> Path:
     for old in {*beside.glob("*.csv")} - kept:
         old.unlink()
     return write_page(folder / "report.html", f"loadflow: {scene.name}", {}, sections, made_of)
-
-
-_WRITTEN_BY = ("report", "plots", "running", "planning", "studies")
-"""Rooms whose files decide what the page looks like, besides the files that stand in no room."""
-
-_OF_CLOCK = ("seconds", "wall_seconds", "workers")
-"""Keys of the manifest that another start changes, and no result."""
-
-
-def _made_of(folder: Path) -> str:
-    """Fingerprint of results, scene and manifest of a run, and of the code that shows them."""
-    found = hashlib.sha256()
-    manifest = read_manifest(folder)
-    kept = {key: value for key, value in manifest.items() if key not in _OF_CLOCK}
-    found.update(json.dumps(kept, sort_keys=True).encode())
-    package = Path(loadflow.__file__).parent
-    files = [
-        *sorted(package.glob("*")),
-        *(path for room in _WRITTEN_BY for path in sorted((package / room).rglob("*"))),
-    ]
-    code = [path for path in files if path.suffix in {".py", ".html", ".js", ".css"}]
-    for path in (folder / "result.h5", folder / "scene.toml", *code):
-        if path.is_file():
-            found.update(path.read_bytes())
-    return found.hexdigest()
 
 
 def _facts(scene: Scene, manifest: dict[str, Any], found: list[str]) -> dict[str, str]:
@@ -336,10 +304,14 @@ def _rolling_tables(data: xr.Dataset) -> list[Table]:
 
 
 def _case_table(data: xr.Dataset) -> Table:
-    """One row for each case (and bearing), one column for each number that is ever not zero."""
+    """One row for each case (and bearing), one column for each number that is ever not zero.
+
+    What is zero, and what no case has, as times of starts where nothing starts, is named below.
+    """
     names = [str(n) for n in data.data_vars if set(data[n].dims) <= {"case", "bearing"}]
     names = [n for n in names if not (n.endswith("_time") and n.removesuffix("_time") in names)]
-    empty = [n for n in names if not np.nan_to_num(data[n].values.astype(float)).any()]
+    numbers = {n: data[n].values.astype(float) for n in names}
+    empty = [n for n in names if not np.nan_to_num(numbers[n]).any()]
     dims = [dim for dim in ("bearing", "case") if dim in data.dims]
     shown = {
         n: readable(data[n], "µm" if data[n].attrs.get("units") == "m" and "film" in n else None)
@@ -364,9 +336,11 @@ def _case_table(data: xr.Dataset) -> Table:
         for b, bearing in enumerate(bearings)
     ]
     bad = frozenset(map(int, np.flatnonzero(counts.T.ravel() > 0)))
-    zero = ", ".join(str(data[n].attrs["long_name"]) for n in empty)
-    note = f"Zero in all cases: {zero}." if zero else ""
-    return Table("", ["case", *heads], rows, bad, note=note)
+    left_out: dict[str, list[str]] = {ZERO: [], "In no case": []}
+    for n in empty:
+        why = "In no case" if np.isnan(numbers[n]).all() else ZERO
+        left_out[why].append(str(data[n].attrs["long_name"]))
+    return Table("", ["case", *heads], rows, bad, left_out=left_out)
 
 
 def _check_section(check: xr.Dataset) -> Section:

@@ -30,6 +30,7 @@ from loadflow.running.cases import (
     do_case,
     is_missing,
 )
+from loadflow.running.earlier import check_settings, finished_run, mark_finished
 from loadflow.running.executor import Executor, Lost, executor
 from loadflow.running.folder import (
     known_verdict,
@@ -149,8 +150,15 @@ def run_on(
     say = say or (lambda stage, done, total: None)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        with locked(folder), _logged(folder), where as workers:
-            return _run(scene, folder, workers, overwrite, report, say, profile)
+        with locked(folder), _logged(folder):
+            if profile is None and (done := finished_run(folder, scene, report)) is not None:
+                log.info("%s: finished before, nothing is left to do", folder)
+                say(LOAD_CASES, 1, 1)
+                return done
+            if not overwrite:
+                check_settings(folder, scene)
+            with where as workers:
+                return _run(scene, folder, workers, overwrite, report, say, profile)
     except OSError as error:
         place = error.filename or folder
         raise LoadflowError(
@@ -247,6 +255,8 @@ def _run(
         overwrite = True  # the parts of the coarser models are this run's own
     if not profile:
         (folder / FILE).unlink(missing_ok=True)  # that of an earlier start
+        if not failures:
+            mark_finished(folder, scene, plan, manifest)
     if report:
         begun = time.perf_counter()
         say("report", 0, 1)

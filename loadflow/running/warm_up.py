@@ -31,18 +31,19 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-import loadflow
 from loadflow.cube import make_case
 from loadflow.planning.effects import switched
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
+from loadflow.running.code_stamp import code_stamp
 from loadflow.running.compiling import Compiling, few_collections
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.telling import Task, times_left
 from loadflow.scene.cases import Case
+from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.probes import PROBES
@@ -125,7 +126,8 @@ def compile_for_pilot(
 def without_own_kernels(questions: Questions, model: str) -> Questions | None:
     """Questions about a model without the effects that have kernels of their own, if it has any.
 
-    None where one of these is never asked to be out, but to have no size.
+    None where one of these is never asked to be out, but to have no size; and where films without
+    them have the same loops.
     """
     ours = [one for one in EFFECTS if one.probed == model and one.name in questions.effects]
     if any(one.muted(switched(questions.scene, one, True) or questions.scene) for one in ours):
@@ -135,9 +137,20 @@ def without_own_kernels(questions: Questions, model: str) -> Questions | None:
     for effect in ours:
         if effect.own_kernels:
             scene = switched(scene, effect, False) or scene
-    if not asked or scene is questions.scene:
+    same = model == "journal" and _share_loops(questions.scene.journal, scene.journal)
+    if not asked or scene is questions.scene or same:
         return None
     return replace(questions, scene=scene, effects=asked)
+
+
+def _share_loops(full: Journal, bare: Journal) -> bool:
+    """Whether films have the same compiled loops with some effects and without.
+
+    On "reduced" those around a tilted shaft do, but for a shell that gives way all over.
+    """
+    shells = [full.at(name).shell for name in full.bearings if bare.at(name).shell is None]
+    all_over = any(shell is not None and not shell.local for shell in shells)
+    return bare.rung == "reduced" and bare.tilt and not all_over
 
 
 @contextmanager
@@ -338,13 +351,8 @@ def made_up_loads(scene: Scene, case: Case) -> xr.Dataset:
 
 def _marks(needed: object) -> list[Path]:
     """Where the mark of these kernels may be, in the order in which numba chooses its folder."""
-    root = Path(loadflow.__file__).parent
-    told = hashlib.sha256()
-    for file in sorted(root.rglob("*.py")):
-        found = file.stat()
-        told.update(f"{file.relative_to(root)} {found.st_size} {found.st_mtime_ns}".encode())
     machine = (platform.machine(), platform.processor(), sys.version, version("numba"))
-    told.update(repr((needed, machine)).encode())
+    told = hashlib.sha256(repr((code_stamp(), needed, machine)).encode())
     name = f"loadflow-{told.hexdigest()[:24]}.compiled"
     return [folder / name for folder in kernel_folders()]
 

@@ -175,6 +175,8 @@ def _turbine_of(data: dict[str, Any]) -> str:
 def origins(data: dict[str, Any]) -> dict[Location, Location]:
     """Where the data of sections was written, of a scene that has its places."""
     found: dict[Location, Location] = {}
+    if isinstance(turbine := data.get("turbine"), dict) and "file" in turbine:
+        found[("turbine", "name")] = ("turbine", "file")
     try:
         if "bearings" in data:
             found |= sections_of(_placed(data["bearings"], _turbine_of(data))).origins

@@ -271,9 +271,9 @@ def _film_conditions(
     peak = max(float(number.max()), 1e-300)
     sums.conditions[f"largest Sommerfeld number in {place}"] = limits.sommerfeld_peak / peak
     if means.size:
-        sums.conditions[f"most mean Sommerfeld number in {place}"] = high / means.max()
+        sums.conditions[f"largest mean Sommerfeld number in {place}"] = high / means.max()
         if low > 0:
-            sums.conditions[f"least mean Sommerfeld number in {place}"] = means.min() / low
+            sums.conditions[f"smallest mean Sommerfeld number in {place}"] = means.min() / low
 
 
 # --- rolling bearings -----------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.quantities import four_digits
 from loadflow.reduction import LongTermExtreme
 from loadflow.report import Drawing, Picture, Section, Table, load_figures, write_page
-from loadflow.report.page import Shown
+from loadflow.report.page import ZERO, Shown
 from loadflow.studies.lifetime import COMPONENTS, YEAR, BearingLifetime, LifetimeOptions
 
 HEADS = ("bearing", "what", "value", "unit")
@@ -45,13 +45,8 @@ def summary_rows(life: BearingLifetime, options: LifetimeOptions) -> list[list[s
 def summary_table(lives: Sequence[BearingLifetime], options: LifetimeOptions) -> Table:
     """What matters of some lifetimes; forces that a bearing never carries are said below."""
     rows = [row for life in lives for row in summary_rows(life, options)]
-    none = (f"{name} of bearing {life.bearing}" for life in lives for name in _unloaded(life))
-    return Table("", list(HEADS), rows, note=_zero(none))
-
-
-def _zero(names: Iterable[str]) -> str:
-    told = ", ".join(names)
-    return f"Zero in all cases: {told}." if told else ""
+    none = [f"{', '.join(found)} of bearing {x.bearing}" for x in lives if (found := _unloaded(x))]
+    return Table("", list(HEADS), rows, left_out={ZERO: none})
 
 
 def _loaded(life: BearingLifetime) -> dict[int, str]:
@@ -169,8 +164,8 @@ def case_table(life: BearingLifetime, options: LifetimeOptions) -> Table:
         [case, f"{share:.4%}", *(four_digits(v / 1e3) for v in known[..., k].ravel())]
         for k, (case, share) in enumerate(zip(life.cases, life.shares.tolist()))
     ]
-    note = _zero(_unloaded(life))
-    return Table("Damage-equivalent loads of the cases", heads, rows, note=note)
+    left_out = {ZERO: _unloaded(life)}
+    return Table("Damage-equivalent loads of the cases", heads, rows, left_out=left_out)
 
 
 def tail_tables(life: BearingLifetime) -> list[Table]:

@@ -179,14 +179,15 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
     yield _thinnest(options, subject, table, touching, "journal")
     rule = "[Jonuschies 2015, ch. 3.4]"
     low, high = limits.sommerfeld_range
-    senses: tuple[tuple[float, Literal["at least", "at most"], Literal["least", "most"]], ...] = (
-        (low, "at least", "least"),
-        (high, "at most", "most"),
+    Sense, Which = Literal["at least", "at most"], Literal["least", "most"]
+    senses: tuple[tuple[float, Sense, Which, str], ...] = (
+        (low, "at least", "least", "smallest"),
+        (high, "at most", "most", "largest"),
     )
-    for limit, sense, which in senses:
+    for limit, sense, which, told in senses:
         value, case, _ = _worst(table, "mean_sommerfeld_number", which)
         yield Verdict(
-            subject, f"{which} mean Sommerfeld number", value, limit, sense,
+            subject, f"{told} mean Sommerfeld number", value, limit, sense,
             source=_source(limits, "sommerfeld_range", f"normal operation, {rule}"), case=case,
             key="journal.limits.sommerfeld_range",
         )  # fmt: skip

@@ -108,6 +108,23 @@ def test_a_film_that_is_asked_to_lie_aligned_is_one_job(plan):
     assert without_own_kernels(Questions(scene, effects, 60.0, plan.cases[:1]), "journal") is None
 
 
+ASPERITIES = {"roughness": 2e-6, "contact_modulus": 115e9, "factor": 1e-3}
+CONTACT = {"asperities": ASPERITIES, "friction": 0.15}
+THICK = {"kind": "thick", "outer_diameter": 3.5, "modulus": 210e9}
+SHELLS = {"local": {"kind": "local", "compliance": 3e-12}, "all over": THICK}
+
+
+@pytest.mark.parametrize(("shell", "jobs"), [(None, 1), ("local", 1), ("all over", 2)])
+def test_films_around_a_tilted_shaft_are_one_job_but_for_a_shell_all_over(plan, shell, jobs):
+    """They have the same loops with asperities and without: nothing is gained beside them."""
+    words = {"tilt": True, "rung": "reduced", "contact": CONTACT, "shell": SHELLS.get(shell)}
+    journal = {key: value for key, value in words.items() if value is not None}
+    scene = make_scene({"results": ["journal.film"], "journal": journal})
+    effects = ("motion of the film", "contact of asperities", "elastic shell")
+    asked = Questions(scene, effects, 60.0, plan.cases[:1])
+    assert (without_own_kernels(asked, "journal") is None) == (jobs == 1)
+
+
 def test_a_process_alone_compiles_when_it_calls(plan, tmp_path):
     where = TwoWorkers()
     where.workers = 1
