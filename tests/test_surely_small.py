@@ -19,6 +19,7 @@ from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.roller_profile import SLICED
 from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.registry import STAGES
+from loadflow.stages.stage import with_settings
 
 QUICK = Path(__file__).parents[1] / "pipelines" / "quick_look.toml"
 
@@ -110,7 +111,7 @@ def test_an_effect_without_a_bound_is_kept_until_somebody_measures_it():
 
 def test_a_floating_shaft_is_followed_through_a_start_before_the_run_of_many_alone():
     """With heat and without takes 1.4 s, of a stop before a run of 2.9 s."""
-    one = ten_scenes()["start, 5 MW"]
+    one = with_settings(ten_scenes()["start, 5 MW"], "journal", {"self_aligning": False})
     loads = one.loads.model_copy(update={"wind_speeds": list(range(4, 25, 2))})
     many = one.model_copy(update={"loads": loads})
     assert pilot(one, outcomes=None, brief=True) is None  # else None would be called

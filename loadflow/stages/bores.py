@@ -193,7 +193,16 @@ def usual_loads(scene: Scene) -> UsualLoads:
     loadflow.errors.InputError, loadflow.errors.SolverError
         As `bores`.
     """
-    return _of_series(scene) if scene.loads.source == "files" else _of_operation(scene)
+    sections = ("turbine", "loads", "environment")
+    key = ":".join([scene.digest(*sections), *_contents(scene)])
+    if key not in _USUAL:
+        given = scene.loads.source == "files"
+        _USUAL[key] = _of_series(scene) if given else _of_operation(scene)
+    return _USUAL[key]
+
+
+_USUAL: dict[str, UsualLoads] = {}
+"""Usual loads by digest of what they depend on: plans and runs share them."""
 
 
 def _of_operation(scene: Scene) -> UsualLoads:

@@ -14,7 +14,9 @@ from loadflow.scene.shaft_place import (
     move_together,
 )
 from loadflow.shaft import Concept
+from loadflow.shaft import bearing_loads as reactions
 from loadflow.shaft.beam import BearingSupport
+from loadflow.stages.bores import usual_loads
 from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest, no_bound_at_standstill
@@ -22,6 +24,7 @@ from loadflow.stages.effects.situation import Floats, Situation
 from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import carried_throughout
+from loadflow.turbines import load_turbine
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)
 """Where the moment of the hub pushes one bearing as it pulls the other; the mean first."""
@@ -99,8 +102,8 @@ class Ends:
 def ends_afloat(at: Situation) -> dict[str, Ends]:
     """Films that a shaft floats in, and what the ends take of them: their gap is c − |e ± θ B/2|.
 
-    The slope θ is that of `slopes` less the turn of the bores; ``alignment = "mean"`` takes the
-    mean of all points. Loads that a film does not carry have none to close.
+    The slope θ is that of `slopes` less the turn of the bores; ``alignment = "mean"`` takes that of
+    `usual_slope`. Loads that a film does not carry have none to close.
     """
     found = {}
     for _, concept, names in floating(at.scene.shaft, at.scene.journal):
@@ -109,18 +112,43 @@ def ends_afloat(at: Situation) -> dict[str, Ends]:
             if name not in at.scene.journal.tilting or not at.turns.any():
                 continue
             own = at.scene.journal.at(name)
-            mean = own.alignment == "mean"
             lies, film = place.position[:, at.turns], place.film[:, at.turns]
             tilted = slope[:, at.turns]
             carried = np.isfinite(film) & np.isfinite(tilted).all(axis=-1)
             if not carried[0].any():
                 continue
-            bore = tilted[0, carried[0]].mean(axis=0) if mean else from_film(own.alignment)
+            if own.alignment == "mean":
+                bore = usual_slope(at.scene, concept, names)
+            else:
+                bore = from_film(own.alignment)
             away = 0.5 * own.geometry.width * moved_by(tilted - bore)
             ends = [np.linalg.norm(lies + side, axis=-1) for side in (away, -away)]
             share = (np.maximum(*ends) - np.linalg.norm(lies, axis=-1)) / film
             found[name] = Ends(share[carried], film[carried])
     return found
+
+
+def usual_slope(scene: Scene, concept: Concept, names: list[str]) -> Floats:
+    """Slope (3,), rad, that bores have which follow a shaft in its clearances, as by `slopes`.
+
+    That of the usual load of the machine, whatever the wind speeds of a scene are. Zero where no
+    film carries that: films refuse it then.
+    """
+    usual = usual_loads(scene)
+    gravity = load_turbine(scene.turbine.name).rotor.tilt
+    loads = reactions(replace(concept, beam=None), usual.force, usual.moment, tilt=gravity)["force"]
+    where = dict(zip(concept.bearings, concept.positions))
+    first, last = names[0], names[-1]
+    places = {}
+    for name in (first, last):
+        force = to_film(loads.sel(bearing=name).transpose("time", "axis").values.astype(float))
+        found = charted(scene.journal.at(name)).equilibrium(force, usual.speed)
+        places[name] = from_film(np.asarray(found.eccentricity))
+    slope = slope_of((places[last] - places[first]) / (where[last] - where[first]))
+    lying = np.isfinite(slope).all(axis=1)
+    if not lying.any():
+        return np.zeros(3)
+    return np.asarray(np.average(slope[lying], axis=0, weights=usual.weight[lying]))
 
 
 def closed_ends(at: Situation) -> dict[str, float]:
@@ -204,7 +232,7 @@ CLEARANCES = Effect(
     stated=lambda scene: stated(scene, floating),
     indicator=_indicator,
     larger=no_bound_at_standstill,
-    smaller=20.0,  # 13 at 15 MW, whose seed of 60 s swings less than is estimated
+    smaller=20.0,  # 13 at 5 MW and 18 m/s, whose seed of 60 s swings less than is estimated
     out="films lie where rigid bearings hold the shaft, which tilts in their clearances",
     needs='a beam whose supports have stiffness = "journal" and takes_moment = true, with '
     'journal.tilt, motion = "transient" and rung = "reduced"; a thrust collar beside them must be '
