@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from contextlib import ExitStack, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from math import isnan
 from pathlib import Path
 from typing import Annotated, Any
@@ -82,9 +82,9 @@ def run(
     check_workers()
     with progress(quiet=as_json) as show:
         show(f"reading {scene}", 0, 1)
-        from loadflow.running.executor import executor, usable_cores
+        from loadflow.running.executor import Executor, executor, usable_cores
 
-        processes = executor(workers or usable_cores(), scheduler)
+        processes: AbstractContextManager[Executor] = executor(workers or usable_cores(), scheduler)
         with ExitStack() as begun:
             if not _was_run(scene, out_folder, name):
                 # before anything else: they read their modules for seconds, as this process does

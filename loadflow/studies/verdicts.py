@@ -179,8 +179,9 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
     yield _thinnest(options, subject, table, touching, "journal")
     rule = "[Jonuschies 2015, ch. 3.4]"
     low, high = limits.sommerfeld_range
-    Sense, Which = Literal["at least", "at most"], Literal["least", "most"]
-    senses: tuple[tuple[float, Sense, Which, str], ...] = (
+    senses: tuple[
+        tuple[float, Literal["at least", "at most"], Literal["least", "most"], str], ...
+    ] = (
         (low, "at least", "least", "smallest"),
         (high, "at most", "most", "largest"),
     )
