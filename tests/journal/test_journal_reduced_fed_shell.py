@@ -94,6 +94,15 @@ def test_oil_that_is_conserved_finds_its_film_in_a_shell(compliance, alone):
     assert float(begun["eccentricity_ratio"][-1]) == pytest.approx(float(ratios[0]), rel=1e-4)
 
 
+@pytest.mark.parametrize("bearing", [BEARING, CROWNED], ids=["plain", "crowned"])
+def test_oil_that_is_conserved_finds_its_film_in_a_shell_on_the_grid(bearing):
+    """A shaft that waits for the rupture, which the shell moves all the same, finds none."""
+    film = replace(FILM, cavitation=MassConserving())
+    found = bearing.equilibrium(np.stack([LOAD, (6e3, -1.5e4)]), np.full(2, SPEED), film)
+    assert found.converged.all()
+    assert found.iterations.max() < 60
+
+
 def test_a_rupture_that_moves_by_points_leads_to_a_film_at_once():
     """With a shaft that follows each wrong rupture, 60 Newton steps to and fro led nowhere."""
     around = np.linspace(0.0, 2 * np.pi, 12, endpoint=False)

@@ -250,8 +250,8 @@ def solve_equilibrium(
     position; the exact stiffness that follows gives the step of the shaft. With `motion` the
     same is one implicit step in time. Only the degrees of freedom `free` move; the others are held.
 
-    Where a law has a kink, a shaft at rest waits while cells that count as full lack far too much:
-    it would follow a load that is not there, and move the rupture to and fro.
+    Where a law has a kink, a shaft at rest in a rigid bore waits while cells that count as full
+    lack far too much: it would follow a load that is not there, and move the rupture to and fro.
     """
     u, whole = u.copy(), as_cylinder(film)
     if whole is not None and free is EVERY:
@@ -261,8 +261,9 @@ def solve_equilibrium(
     old = (motion.volume_rate, motion.volume)
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     pressing, most = 0, math.inf
-    # in motion the film before is near, and its rupture
-    patience = math.inf if moving or film.law.kink == -math.inf else WAITS * flux_of(film)
+    # in motion the film before is near, and its rupture; a shell moves it though the shaft waits
+    at_once = moving or film.elastic or film.law.kink == -math.inf
+    patience = math.inf if at_once else WAITS * flux_of(film)
     if film.contact is not None and film.elastic:
         most = _OVERLOADED * film.load_scale(force)
     for iteration in range(1, max_iterations + 1):
