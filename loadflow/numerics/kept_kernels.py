@@ -18,7 +18,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from numba.core.caching import FunctionCache
+from numba.core.caching import FunctionCache, _CacheLocator
 
 _ROOT = Path(__file__).parents[1]
 _IMPORT = re.compile(r"^from (\.*)([\w.]*) import (\([^)]*\)|.*)", re.MULTILINE)
@@ -27,7 +27,7 @@ _FIELD = re.compile(r"^    (\w+): ", re.MULTILINE)
 _COMPILES = {"linked.py", "_compile.py"}  # from these come the decorators of kernels
 
 
-class KernelPlace:
+class KernelPlace(_CacheLocator):
     """Where kernels of one file are kept; of the kind that numba calls a cache locator.
 
     Parameters
@@ -53,10 +53,6 @@ class KernelPlace:
     def get_disambiguator(self) -> str:
         """Part of the name of the kept files: line of the kernel and state."""
         return f"{self._chosen.get_disambiguator()}-{self._state}"
-
-    def ensure_cache_path(self) -> None:
-        """Make the folder; an `OSError` where that cannot be."""
-        self._chosen.ensure_cache_path()
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> KernelPlace | None:
