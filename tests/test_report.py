@@ -4,8 +4,10 @@ import asyncio
 import base64
 import json
 import re
+import shutil
 import time
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -21,7 +23,9 @@ from loadflow.report import Chart, Panel
 from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed, seed_verdicts
+from loadflow.running import report_state
 from loadflow.running.answers_page import answer_row, without_film
+from loadflow.running.code_stamp import code_stamp
 from loadflow.running.report_page import _spread, _took, write_report
 from loadflow.running.report_state import report_is_current
 from loadflow.running.verdicts_page import verdict_sentence, verdict_table
@@ -165,7 +169,7 @@ def test_every_table_stands_beside_the_page_as_csv_and_no_old_one(page):
         assert value in text
 
 
-def test_an_unchanged_report_is_not_written_again(page):
+def test_an_unchanged_report_is_not_written_again(page, monkeypatch):
     before = page.stat().st_mtime_ns
     assert report_is_current(page.parent)
     write_report(page.parent)
@@ -177,6 +181,27 @@ def test_an_unchanged_report_is_not_written_again(page):
     assert "a new one" in write_report(page.parent).read_text()
     manifest.write_text(told)
     assert "a new one" not in write_report(page.parent).read_text()
+    monkeypatch.setattr(report_state, "code_stamp", lambda: "another")
+    assert not report_is_current(page.parent)
+
+
+def test_code_is_another_where_a_file_of_it_has_another_text_or_name(tmp_path, monkeypatch):
+    def stamp():
+        return code_stamp.__wrapped__()
+
+    package = tmp_path / "package"
+    shutil.copytree(Path(lf.__file__).parent / "report", package)
+    own = stamp()
+    monkeypatch.setattr(lf, "__file__", str(package / "__init__.py"))
+    stamps = {own, stamp()}
+    (package / "mark.py").touch()
+    assert stamp() in stamps
+    for name in ("mark.py", "assets/page.js", "templates/page.html"):
+        with (package / name).open("a", encoding="utf-8") as stream:
+            stream.write("\n")
+        stamps.add(stamp())
+    (package / "mark.py").rename(package / "marks.py")
+    assert len(stamps | {stamp()}) == 6
 
 
 def test_a_chart_holds_the_extremes_of_every_interval():

@@ -9,10 +9,9 @@ from dataclasses import asdict, fields
 from pathlib import Path
 from typing import Any
 
-from loadflow import __version__
+from loadflow.running.code_stamp import code_stamp
 from loadflow.storage import number_of, plain, write_json
 from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
 from loadflow.verdict import Verdict
 
@@ -25,9 +24,6 @@ _OF_RUN = ("stages", "rungs", "expected_errors", "effects", "failures", "refined
 def key_of(run: Finished, **beside: Any) -> str:
     """SHA-256 of all that the numbers of a candidate rest on.
 
-    The rows of a comparison and the form of what is kept are among it: between two versions a
-    state of the code may have other ones.
-
     Parameters
     ----------
     run : Finished
@@ -36,9 +32,7 @@ def key_of(run: Finished, **beside: Any) -> str:
         What else they rest on, in plain values.
     """
     told = {
-        "version": __version__,
-        "rows": QUANTITIES,
-        "form": [[one.name for one in fields(kind)] for kind in (Judged, Number, Verdict)],
+        "code": code_stamp(),
         "candidate": (run.name, run.title, run.source),
         "scene": run.scene.digest(),
         "run": {name: run.manifest.get(name) for name in _OF_RUN},
