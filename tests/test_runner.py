@@ -176,6 +176,15 @@ def test_parts_of_other_settings_are_refused_unless_overwritten(cube, tmp_path):
     assert reduced["N"].sizes["sample"] >= 0.2 * 400
 
 
+def test_another_lubricant_is_told_of_rolling_bearings_and_not_of_films():
+    """A plan that leaves the heat of a film out writes its own viscosity."""
+    for section, told in (("friction", ["friction.lubricant"]), ("journal", [])):
+        before, stated = ({"lubricant": {"viscosity": value}} for value in (0.1, 0.2))
+        if section == "friction":
+            before, stated = {"lubricant": "mineral-vg-320"}, {"lubricant": "lgep-2"}
+        assert [*_changed(stated, before, section)] == told
+
+
 def test_load_cases_of_other_content_are_refused_before_anything_works(cube, tmp_path):
     own = tmp_path / "own.h5"
     shutil.copy(cube, own)

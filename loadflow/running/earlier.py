@@ -23,11 +23,9 @@ from loadflow.running.folder import (
 )
 from loadflow.running.parts import digest_of, unsound
 from loadflow.running.report_state import report_is_current
-from loadflow.running.result import Run
+from loadflow.running.result import Run, run_of
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene, make_scene
-from loadflow.scene.unused import friction_note, scaling_note, unused_keys
-from loadflow.stages.bores import told_bores
 from loadflow.stages.registry import STAGES, giving
 from loadflow.storage import write_json
 
@@ -51,7 +49,6 @@ def check_settings(folder: Path, scene: Scene) -> None:
         before = make_scene(told).model_dump(mode="json")
     except (OSError, ValueError, InputError):  # lost: then `prepare` finds what does not fit
         return
-    cases = list(list_cases(scene))
     stated = scene.model_dump(mode="json", exclude_unset=True)
     surely = {"loads", *(giving(result).name for result in scene.results)}
     for name in (one for one in STAGES if one in surely & manifest.get("rungs", {}).keys()):
@@ -62,11 +59,13 @@ def check_settings(folder: Path, scene: Scene) -> None:
             for key in _changed(stated.get(section), before.get(section), section)
         ]
         if name == "loads" and not keys:
-            keys = [*_changed_inputs(cases, manifest)]
+            keys = [*_changed_inputs(list_cases(scene), manifest)]
+        if not keys:
+            continue
         made_with = manifest["stages"].get(name)
-        there = [path for path in parts_of(folder, name) if digest_of(path) == made_with]
-        if keys and there:
-            raise InputError(other_parts(folder, name, len(there), keys))
+        there = sum(digest_of(path) == made_with for path in parts_of(folder, name))
+        if there:
+            raise InputError(other_parts(folder, name, there, keys))
 
 
 def _changed(stated: Any, before: Any, place: str) -> Iterator[str]:
@@ -76,7 +75,7 @@ def _changed(stated: Any, before: Any, place: str) -> Iterator[str]:
     """
     if isinstance(stated, dict) and isinstance(before, dict):
         for key, value in stated.items():
-            if key != "lubricant":
+            if key != "lubricant" or place == "friction":
                 yield from _changed(value, before.get(key), f"{place}.{key}")
     elif isinstance(stated, list) and isinstance(before, list) and len(stated) == len(before):
         for k, (value, other) in enumerate(zip(stated, before)):
@@ -136,7 +135,4 @@ def finished_run(folder: Path, scene: Scene, report: bool) -> Run | None:
     tree = read_whole(result)
     if not isinstance(tree, xr.DataTree):
         return None
-    bores = told_bores(tree.children)
-    notes = (*known["overloaded"], *scaling_note(scene), *friction_note(scene), *scene.taken)
-    short = tuple(manifest.get("shortfalls", ()))
-    return Run(folder, tree, {}, unused_keys(scene), short, (*notes, *bores))
+    return run_of(folder, scene, tree, {}, manifest.get("shortfalls", ()), known["overloaded"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +16,8 @@ from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
 from loadflow.running.whole import summaries
 from loadflow.scene.scene import Scene
+from loadflow.scene.unused import friction_note, scaling_note, unused_keys
+from loadflow.stages.bores import told_bores
 from loadflow.stages.registry import STAGES
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
@@ -80,6 +82,20 @@ class Run:
     def report(self) -> Path:
         """The report page."""
         return self.path / "report.html"
+
+
+def run_of(
+    folder: Path,
+    scene: Scene,
+    tree: xr.DataTree,
+    failures: dict[str, str],
+    shortfalls: Iterable[str],
+    overloaded: Iterable[str],
+) -> Run:
+    """Return a run with what is doubtful about its scene; `overloaded` is what its plan says."""
+    notes = [*overloaded, *scaling_note(scene), *friction_note(scene), *scene.taken]
+    notes += told_bores(tree.children)
+    return Run(folder, tree, failures, unused_keys(scene), tuple(shortfalls), tuple(notes))
 
 
 def collect(plan: Plan, folder: Path, where: Executor) -> xr.DataTree:

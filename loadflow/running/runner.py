@@ -42,7 +42,7 @@ from loadflow.running.folder import (
 )
 from loadflow.running.lock import locked
 from loadflow.running.profile import COMPILING, FILE, LOAD_CASES, Profile
-from loadflow.running.result import Run, collect
+from loadflow.running.result import Run, collect, run_of
 from loadflow.running.telling import Task, times_left
 from loadflow.running.warm_up import (
     adopt,
@@ -53,8 +53,6 @@ from loadflow.running.warm_up import (
 from loadflow.running.whole import finish_stages
 from loadflow.scene.cases import Case, list_cases
 from loadflow.scene.scene import Scene
-from loadflow.scene.unused import friction_note, scaling_note, unused_keys
-from loadflow.stages.bores import told_bores
 from loadflow.storage import check_name
 
 log = logging.getLogger("loadflow.run")
@@ -271,9 +269,7 @@ def _run(
     if profile:
         profile.write(folder / FILE, where.workers)
     log.info("finished, %d parts have no answer", len(failures))
-    bores = told_bores(tree.children)
-    notes = (*plan.overloaded, *scaling_note(scene), *friction_note(scene), *scene.taken, *bores)
-    return Run(folder, tree, failures, unused_keys(scene), short, notes)
+    return run_of(folder, scene, tree, failures, short, plan.overloaded)
 
 
 @threadpool_limits.wrap(limits=1)  # cases are what runs in parallel, here as in other processes
