@@ -175,14 +175,19 @@ def slope_in_clearances(
     scene: Scene, concept: Concept, films: list[str], loads: xr.Dataset, speed: Floats
 ) -> Floats:
     """Slope of a shaft, (n, 3), rad, by the places of its outermost films at rest."""
-    where = dict(zip(concept.bearings, concept.positions))
-    first, last = films[0], films[-1]
-    places = []
-    for name in (first, last):
+    places = {}
+    for name in (films[0], films[-1]):
         own = scene.journal.at(name).model_copy(update={"tilt": False})
         force = loads["force"].sel(bearing=name).transpose("time", "axis").values.astype(float)
-        places.append(from_film(equilibria(own, force, speed).eccentricity))
-    return slope_of((places[1] - places[0]) / (where[last] - where[first]))
+        places[name] = from_film(equilibria(own, force, speed).eccentricity)
+    return slope_between(concept, places)
+
+
+def slope_between(concept: Concept, places: Mapping[str, Floats]) -> Floats:
+    """Slope of a shaft, (..., 3), rad, from the first to the last of its `places` (..., 3), m."""
+    where = dict(zip(concept.bearings, concept.positions))
+    first, *_, last = places
+    return slope_of((places[last] - places[first]) / (where[last] - where[first]))
 
 
 def usual_loads(scene: Scene) -> UsualLoads:

@@ -71,9 +71,11 @@ def compare(
 
 
 def _film(scene: Scene, case: Case, parts: Parts) -> Iterator[Difference]:
-    again = paths_again if scene.journal.in_motion else _films
     for stage, models, own in _better_films(scene, case, parts):
-        yield from again(scene, case, parts, stage, models, own)
+        if scene.journal.in_motion:
+            yield from paths_again(scene, case, parts, stage, models, own)
+        else:
+            yield from _films(scene, case, parts, stage, models[0])
     if not scene.journal.in_motion:
         yield from _motion(scene, case, parts)
 
@@ -221,19 +223,14 @@ def _warmer(options: Journal, film: xr.Dataset) -> Journal:
 
 
 def _films(
-    scene: Scene,
-    case: Case,
-    parts: Parts,
-    stage: str,
-    models: list[Better],
-    own: dict[str, Journal] | None,
+    scene: Scene, case: Case, parts: Parts, stage: str, model: Better
 ) -> Iterator[Difference]:
-    """Equilibria of a few samples, by the next better of `models`; those there are, are `own`.
+    """Equilibria of a few samples, by the next better model.
 
     Of those in which the rotor runs: as it comes to a stand, films get as thin as any cells fail to
     resolve, until the surfaces touch, and what is asked of them there is when they do.
     """
-    against, options = models[0]
+    against, options = model
     for bearing, better in options.items():
         film = parts["journal"][bearing].to_dataset().load()
         places = _spread(running_ratio(case, film))

@@ -16,12 +16,12 @@ from loadflow.scene.shaft_place import (
 from loadflow.shaft import Concept
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.shaft.beam import BearingSupport
-from loadflow.stages.bores import usual_loads
+from loadflow.stages.bores import slope_between, usual_loads
 from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest, no_bound_at_standstill
 from loadflow.stages.effects.situation import Floats, Situation
-from loadflow.stages.frames import from_film, moved_by, slope_of, to_film
+from loadflow.stages.frames import from_film, moved_by, to_film
 from loadflow.stages.stage import with_settings
 from loadflow.stages.turning import carried_throughout
 from loadflow.turbines import load_turbine
@@ -57,11 +57,8 @@ def slopes(at: Situation, concept: Concept, names: list[str]) -> tuple[Floats, d
     places : dict of Place
         Where the film of each bearing lies.
     """
-    where = dict(zip(concept.bearings, concept.positions))
     places = {name: place_of(at, name, (-1.0) ** k) for k, name in enumerate(names)}
-    first, last = names[0], names[-1]
-    moved = places[last].position - places[first].position
-    return slope_of(moved / (where[last] - where[first])), places
+    return slope_between(concept, {name: one.position for name, one in places.items()}), places
 
 
 def place_of(at: Situation, name: str, sign: float) -> Place:
@@ -137,14 +134,12 @@ def usual_slope(scene: Scene, concept: Concept, names: list[str]) -> Floats:
     usual = usual_loads(scene)
     gravity = load_turbine(scene.turbine.name).rotor.tilt
     loads = reactions(replace(concept, beam=None), usual.force, usual.moment, tilt=gravity)["force"]
-    where = dict(zip(concept.bearings, concept.positions))
-    first, last = names[0], names[-1]
     places = {}
-    for name in (first, last):
+    for name in (names[0], names[-1]):
         force = to_film(loads.sel(bearing=name).transpose("time", "axis").values.astype(float))
         found = charted(scene.journal.at(name)).equilibrium(force, usual.speed)
         places[name] = from_film(np.asarray(found.eccentricity))
-    slope = slope_of((places[last] - places[first]) / (where[last] - where[first]))
+    slope = slope_between(concept, places)
     lying = np.isfinite(slope).all(axis=1)
     if not lying.any():
         return np.zeros(3)
