@@ -240,14 +240,11 @@ def wear_bearing(
     require(fits, "worn", depth.shape, allowed)
     life, work, left, rows = 0.0, 0.0, 0.0, list[dict[str, Any]]()
     rough, weight = contact, np.zeros(surface.shape)
-    offsets = [
-        None if cycle.start is None else cycle.start - _first_place(bearing, cycle, film, control)
-        for cycle in cycles
-    ]
+    offsets = [offset_of(bearing, cycle, film, control) for cycle in cycles]
     for _ in range(wear.max_renewals):
         now = surface.worn(depth)
         runs = [
-            _Run.of(now, cycle, replace(film, contact=rough), control, offset)
+            _Run(cycle, followed(now, cycle, replace(film, contact=rough), control, offset))
             for cycle, offset in zip(cycles, offsets)
         ]
         rows.append(_told(life, depth, surface, rough, runs))
@@ -315,6 +312,45 @@ def _checked(bearing: JournalBearing, cycles: Sequence[Cycle], film: Film, wear:
     return contact
 
 
+def followed(
+    bearing: JournalBearing,
+    cycle: Cycle,
+    film: Film,
+    control: Control | None = None,
+    offset: Array | None = None,
+) -> dict[str, Array]:
+    """Follow a cycle, first by `offset` (2,), m, from rest, or solve each of its samples.
+
+    Arrays (n, …) by names of `JournalBearing.orbit`; `loadflow.errors.SolverError` names the cycle.
+    """
+    line = cycle.line()
+    try:
+        if cycle.in_motion:
+            if offset is not None:
+                line["start"] = _first_place(bearing, cycle, film, control) + offset
+            path = bearing.orbit(
+                cycle.time, cycle.force, cycle.speed, film, control=control, **line
+            )
+            return {name: path[name].values for name in _FOLLOWED}
+        rest = bearing.equilibrium(cycle.force, cycle.speed, film, control=control, **line)
+        return {name: np.asarray(getattr(rest, name)) for name in _FOLLOWED}
+    except SolverError as error:
+        raise SolverError(f"{cycle.name}: {error}") from error
+
+
+_FOLLOWED = ("eccentricity", "contact_force", "contact_share", "contact_power",
+             "friction_power", "minimum_film", "contact_pressure")  # fmt: skip
+
+
+def offset_of(
+    bearing: JournalBearing, cycle: Cycle, film: Film, control: Control | None = None
+) -> Array | None:
+    """How far a cycle begins from rest, (2,), m, for other bores: its `start` may be outside."""
+    return (
+        None if cycle.start is None else cycle.start - _first_place(bearing, cycle, film, control)
+    )
+
+
 def _first_place(
     bearing: JournalBearing, cycle: Cycle, film: Film, control: Control | None
 ) -> Array:
@@ -330,36 +366,10 @@ def _first_place(
 
 @dataclass(frozen=True)
 class _Run:
-    """A cycle in the bore as it is worn, by the names of `JournalBearing.orbit`, arrays (n, …)."""
+    """A cycle in the bore as it is worn, as `followed`."""
 
     cycle: Cycle
     found: dict[str, Array]
-
-    @classmethod
-    def of(
-        cls,
-        bearing: JournalBearing,
-        cycle: Cycle,
-        film: Film,
-        control: Control | None,
-        offset: Array | None,
-    ) -> _Run:
-        """Follow a cycle, first by `offset` (2,), m, from rest, or solve each of its samples."""
-        line = cycle.line()
-        names = ("eccentricity", "contact_force", "contact_share", "contact_power",
-                 "friction_power", "minimum_film", "contact_pressure")  # fmt: skip
-        try:
-            if cycle.in_motion:
-                if offset is not None:
-                    line["start"] = _first_place(bearing, cycle, film, control) + offset
-                path = bearing.orbit(
-                    cycle.time, cycle.force, cycle.speed, film, control=control, **line
-                )
-                return cls(cycle, {name: path[name].values for name in names})
-            rest = bearing.equilibrium(cycle.force, cycle.speed, film, control=control, **line)
-            return cls(cycle, {name: np.asarray(getattr(rest, name)) for name in names})
-        except SolverError as error:
-            raise SolverError(f"{cycle.name}: {error}") from error
 
     def groups(self, radius: float) -> Iterator[Group]:
         """What touches and slides, in at most `_GROUPS` groups."""

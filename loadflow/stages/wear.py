@@ -119,17 +119,16 @@ def cycles_of(
         return []
     whole = float(energy.sum() / sum(energy[one].sum() for one in kept))
     given = options, film, loads, shaft
-    return [
-        replace(_lying(time[one], *given), count=whole, start=_place(options, film, one.start))
-        for one in kept
-    ]
+    return [replace(_lying(time[one], one.start, *given), count=whole) for one in kept]
 
 
 def _place(options: Journal, film: xr.Dataset, sample: int) -> NDArray[np.float64] | None:
-    """Eccentricity (2,), m, of a sample in the bore as stated; None where it has no answer.
+    """Eccentricity (2,), m, of a sample in the bore as stated; None at rest and without an answer.
 
     At rest under the first load the shaft would touch long before squeeze lets it.
     """
+    if not options.in_motion:
+        return None
     found = film.isel(sample=sample)
     place = found["eccentricity"].values.astype(float)
     if "clearance" in found:  # that of the warm bore
@@ -161,19 +160,25 @@ def touching_cycle(
     time, rubs = loads["time"].values.astype(float), _rubs(film)
     if not rubs.any():
         return None
-    seconds = film["time"].values[rubs]
-    first, last = float(seconds.min()), float(seconds.max())
+    begin = max(int(np.argmax(rubs)) - 1, 0)
+    seconds = film["time"].values
+    first, last = float(seconds[begin]), float(seconds[rubs].max())
     step = float(time[1] - time[0])
-    first, last = first - step, last + _AFTER * (last - first) + step
+    last += _AFTER * (last - first) + step
     count = max(2, min(scene.wear.samples, int((last - first) / step) + 1))
-    when = np.linspace(max(first, float(time[0])), min(last, float(time[-1])), count)
-    return _lying(when, options, film, loads, shaft)
+    when = np.linspace(first, min(last, float(time[-1])), count)
+    return _lying(when, begin, options, film, loads, shaft)
 
 
 def _lying(
-    when: np.ndarray, options: Journal, film: xr.Dataset, loads: xr.Dataset, shaft: xr.Dataset
+    when: np.ndarray,
+    begin: int,
+    options: Journal,
+    film: xr.Dataset,
+    loads: xr.Dataset,
+    shaft: xr.Dataset,
 ) -> Cycle:
-    """Loads and shaft at some times of a load case."""
+    """Loads and shaft at some times of a load case, from the sample `begin` of its film on."""
     time, speed = (loads[key].values.astype(float) for key in ("time", "speed"))
     line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
     force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
@@ -189,6 +194,7 @@ def _lying(
         in_motion=options.in_motion,
         tilt=lying.get("tilt"),
         bend=lying.get("bend"),
+        start=_place(options, film, begin),
     )
 
 

@@ -6,11 +6,12 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from loadflow.cube.hdf5 import read_variables
 from loadflow.errors import SolverError
 from loadflow.journal.grid_bounds import unresolved_counted
-from loadflow.journal.wear import Cycle
+from loadflow.journal.wear import Cycle, followed, offset_of
 from loadflow.scene.journal import Journal
 from loadflow.stages.frames import to_film
 from loadflow.stages.wear import cycles_of
@@ -38,32 +39,44 @@ class Rubbing:
         The shaft in it meanwhile.
     warmth : float
         Film over the oil that enters, K; 0 without heat.
+    offset : array (2,), optional
+        How far the shaft first is from where it would lie at rest, m. Left out, it begins there.
     """
 
     place: str
     cycle: Cycle
     warmth: float = 0.0
+    offset: NDArray[np.float64] | None = None
+
+    def begun_in(self, options: Journal) -> Rubbing:
+        """The same with the `offset` of its cycle in the bore that the run had.
+
+        Raises
+        ------
+        loadflow.errors.SolverError
+            No answer at rest.
+        """
+        film = self._warm(options).film_model
+        with unresolved_counted():
+            return replace(self, offset=offset_of(options.geometry, self.cycle, film))
 
     def energy(self, options: Journal) -> float:
         """Friction of touching asperities in the bore as new, J; NaN without an answer.
 
         The depth of wear goes with it by both laws: Archard's and Fleischer's.
         """
-        held, cycle = options, self.cycle
-        if options.heat is not None:
-            held = options.at_temperature(options.heat.inlet_temperature + self.warmth)
-        film, given = held.film_model, (cycle.force, cycle.speed)
-        lying, bore = cycle.line(), options.geometry
+        film = self._warm(options).film_model
         try:
             with unresolved_counted():  # the run has told of them
-                if cycle.in_motion:
-                    path = bore.orbit(cycle.time, *given, film, start=cycle.start, **lying)
-                    power = path["contact_power"].values
-                else:
-                    power = np.asarray(bore.equilibrium(*given, film, **lying).contact_power)
+                found = followed(options.geometry, self.cycle, film, offset=self.offset)
         except SolverError:
             return math.nan
-        return float(cycle.seconds @ power)
+        return float(self.cycle.seconds @ found["contact_power"])
+
+    def _warm(self, options: Journal) -> Journal:
+        if options.heat is None:
+            return options
+        return options.at_temperature(options.heat.inlet_temperature + self.warmth)
 
     def askew(self, way: tuple[float, float]) -> Rubbing:
         """The same with the shaft turned by an angle (y, z), rad, more than it lies."""
@@ -73,7 +86,7 @@ class Rubbing:
 
 
 def rubbing_of(run: Finished, wear: Number) -> Rubbing | None:
-    """What rubs in the load case of a run that a wear names; None without wear."""
+    """What rubs in the load case of a run that a wear names; None without wear, or an answer."""
     if not wear.case or not wear.value > 0:
         return None
     scene, folder = run.scene, run.folder
@@ -88,7 +101,10 @@ def rubbing_of(run: Finished, wear: Number) -> Rubbing | None:
     warmth = 0.0
     if options.heat is not None and "temperature" in film:
         warmth = float(film["temperature"].median()) - options.heat.inlet_temperature
-    return Rubbing(wear.place, cycles[0], warmth)
+    try:
+        return Rubbing(wear.place, cycles[0], warmth).begun_in(options)
+    except SolverError:
+        return None
 
 
 def with_error(run: Finished, wear: Number) -> Number:

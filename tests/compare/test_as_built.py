@@ -236,6 +236,27 @@ def test_a_start_rubs_more_under_a_shaft_that_lies_askew():
     assert all(cheap_numbers(end)["wear"] > stated for end in found.ends)
 
 
+def test_what_rubs_begins_as_far_from_rest_in_a_narrower_or_a_wider_bore():
+    """Where the shaft was is outside of the one, and above the asperities of the other."""
+    rough = {"roughness": 0.5e-6, "contact_modulus": 115e9, "factor": 1e-3}
+    words = {"motion": "transient", "rung": "reduced", "grid": [60, 8]}
+    options = journal(contact={"asperities": rough}, **words).candidate.journal.at("N")
+    time, force = 0.05 * np.arange(20), np.tile((1.2e6, 0.0), (20, 1))
+    speed = np.full(time.size, 0.01)
+    path = options.geometry.orbit(time, force, speed, options.film_model)
+    place = path["eccentricity"].values[-1]
+    rubs = Rubbing("N", Cycle(time, force, speed, start=place)).begun_in(options)
+
+    def energy(wider):
+        clearance = wider * options.geometry.relative_clearance
+        bore = replace(options.geometry, relative_clearance=clearance)
+        return rubs.energy(options.model_copy(update={"geometry": bore}))
+
+    assert energy(1.0) > 0
+    assert energy(0.95) == pytest.approx(energy(1.0), rel=0.1)
+    assert energy(1.05) == pytest.approx(energy(1.0), rel=0.1)
+
+
 def test_wear_has_the_error_of_its_coefficient_and_of_the_films_that_it_begins_in(monkeypatch):
     """Thinner films rub more: as rougher surfaces do in the start that wears most."""
     stated = starting()

@@ -323,7 +323,8 @@ def test_spells_of_contact_that_rub_most_stand_for_all_of_a_load_case():
     rubs = np.isin(np.arange(40), [5, 6, 20, 21, 22, 30])
     power = np.where(rubs, 1.0, 0.0) + 2.0 * (np.arange(40) == 21)
     film, loads, shaft = production(rubs, power)
-    film["eccentricity"].values[19] = 1e-4, 2e-5
+    for sample, place in ((19, (1e-4, 2e-5)), (4, (2e-4, 1e-5))):
+        film["eccentricity"].values[sample] = place
     asked = scene.journal.at("N"), film, loads, shaft.sel(bearing="N")
     first, second = stage.cycles_of("1.2", scene, *asked)
     np.testing.assert_allclose(first.time, 0.1 * np.arange(19, 24))  # the hardest, 5 J
@@ -331,12 +332,20 @@ def test_spells_of_contact_that_rub_most_stand_for_all_of_a_load_case():
     assert first.count == second.count == pytest.approx(8.0 / 7.0)
     assert first.in_motion
     assert first.start.tolist() == [1e-4, 2e-5]  # where the shaft was then
-    assert second.start is None
+    assert second.start.tolist() == [2e-4, 1e-5]
     (whole,) = stage.cycles_of("3.1", scene, *asked)  # a start is one from first to last
     assert whole.time[0] == pytest.approx(0.4)
     assert whole.time[-1] > 3.0
+    assert whole.start.tolist() == [2e-4, 1e-5]
+    film["eccentricity"].values[4] = np.nan
+    (whole,) = stage.cycles_of("3.1", scene, *asked)
+    assert whole.start is None
     still = changed(journal={"motion": "quasi-static"})
-    assert stage.cycles_of("1.2", still, still.journal.at("N"), *asked[1:]) == []
+    at_rest = still.journal.at("N"), *asked[1:]
+    assert stage.cycles_of("1.2", still, *at_rest) == []
+    film["eccentricity"].values[4] = 1e-4, 2e-5
+    (whole,) = stage.cycles_of("3.1", still, *at_rest)
+    assert whole.start is None
 
 
 def test_a_spell_that_begins_where_its_shaft_was_rubs_as_along_the_whole_path():
