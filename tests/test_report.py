@@ -305,6 +305,7 @@ def test_many_starts_and_a_large_worn_volume_are_written_out():
             "depth_of_bore": (("angle", "axial"), [[0.0], [1.08e-5]]),
             "roughness": ("renewal", [5e-7, 4e-7]),
             "count": ("cycle", [2e4]),
+            "case": ("cycle", ["start"]),
         },
         {"angle": [0.0, 1.0], "cycle": ["start"]},
         {"cycles": 1, "volume": 1.37e-5},
@@ -315,6 +316,11 @@ def test_many_starts_and_a_large_worn_volume_are_written_out():
         ["start N, new", "20000"], ["start N, worn", "20000"],
     ]  # fmt: skip
     assert each_start.rows[0][-1] == "20000"
+    spells = bore.assign_coords(cycle=["start, 2"])
+    both = xr.concat([bore, spells], "cycle", data_vars="minimal", combine_attrs="override")
+    worn, each_spell = wear_section({"N": both}).tables
+    assert worn.rows[0][1] == "1"  # both of one load case
+    assert len(each_spell.rows) == 4
 
 
 def test_answers_have_a_unit_that_fits_on_value_and_interval():

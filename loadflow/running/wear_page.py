@@ -31,7 +31,7 @@ def wear_section(bearings: dict[str, xr.Dataset]) -> Section:
         worn.append(
             [
                 name,
-                f"{np.unique(data['case' if 'case' in data else 'cycle']).size}",
+                f"{np.unique(data['case']).size}",
                 four_digits(1e6 * depth.max()),
                 four_digits(1e9 * data.attrs["volume"]),
                 f"{spread[0]:.3g} … {spread[-1]:.3g}" if spread.size else "-",
