@@ -13,12 +13,13 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from loadflow.errors import InputError
+from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.cases import speed_shares, wind_class
 from loadflow.scene.scene import Scene
 from loadflow.wind import iec
 from loadflow.wind.cases import by_load_case, check_counted, row_of
 
-YEAR = 365.25 * 86_400.0
+YEAR = 3600.0 * HOURS_PER_YEAR
 PRODUCTION = ("1.1", "1.2")
 IDLING = ("6.4",)
 
