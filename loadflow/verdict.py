@@ -91,14 +91,17 @@ class Verdict:
         size = max(known, default=0.0)
         film = self.unit == "m" and size < _FILMS
         factor, unit = (1e6, "µm") if film else fitting_unit(self.unit, size)
-        zero, scale = scale_of(unit.strip("–"))
-        value, limit = self.value - zero, self.limit - zero
-        told = ((value, scale), (limit, scale), (self.margin, unit.strip("–")))
-        found = (
-            "" if math.isnan(one) else f"{four_digits(factor * one)} {name}".rstrip()
-            for one, name in told
+        unit = unit.strip("–")
+        zero, scale = scale_of(unit)
+
+        def told(number: float, unit: str) -> str:
+            return "" if math.isnan(number) else f"{four_digits(factor * number)} {unit}".rstrip()
+
+        return (
+            told(self.value - zero, scale),
+            told(self.limit - zero, scale),
+            told(self.margin, unit),
         )
-        return next(found), next(found), next(found)
 
     @property
     def sentence(self) -> str:

@@ -90,7 +90,7 @@ class Mounting:
 
     Rings, rolling elements, shaft and housing expand each with its own temperature, and what an
     interference leaves of itself at these temperatures widens the inner ring and presses the outer
-    one together (thick-walled cylinders of Lamé, as in [Harris and Kotzalas], ch. 3). A ring
+    one together (thick-walled cylinders of Lamé, as in [Harris and Kotzalas 2006], ch. 3). A ring
     reaches from its seat to its raceway, or, where its section is given, over all of it. A part is
     warmer than the surroundings by its share of what the bearing is; its temperature may be given
     instead.

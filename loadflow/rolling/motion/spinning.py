@@ -3,7 +3,7 @@
 A ball then meets both rings at different angles. The loads of inertia are dead loads within one
 equilibrium and follow its contact angles from one to the next, with control by the outer raceway
 (λ_i = 0, λ_o = 2). The stiffness counts how they follow, and is not symmetric: they have no
-potential. Source: Harris & Kotzalas, Advanced Concepts of Bearing Technology, ch. 3.
+potential. Source: [Harris and Kotzalas 2006], Advanced Concepts, ch. 2 (speeds), ch. 3 (forces).
 """
 
 from __future__ import annotations
