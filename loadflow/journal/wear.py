@@ -348,10 +348,10 @@ class _Run:
         line = cycle.line()
         names = ("eccentricity", "contact_force", "contact_share", "contact_power",
                  "friction_power", "minimum_film", "contact_pressure")  # fmt: skip
+        if offset is not None:
+            line["start"] = _first_place(bearing, cycle, film, control) + offset
         try:
             if cycle.in_motion:
-                if offset is not None:
-                    line["start"] = _first_place(bearing, cycle, film, control) + offset
                 path = bearing.orbit(
                     cycle.time, cycle.force, cycle.speed, film, control=control, **line
                 )
