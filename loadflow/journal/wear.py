@@ -324,10 +324,10 @@ def followed(
     Arrays (n, …) by names of `JournalBearing.orbit`; `loadflow.errors.SolverError` names the cycle.
     """
     line = cycle.line()
+    if offset is not None:
+        line["start"] = _first_place(bearing, cycle, film, control) + offset
     try:
         if cycle.in_motion:
-            if offset is not None:
-                line["start"] = _first_place(bearing, cycle, film, control) + offset
             path = bearing.orbit(
                 cycle.time, cycle.force, cycle.speed, film, control=control, **line
             )

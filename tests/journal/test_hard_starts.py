@@ -25,6 +25,7 @@ from loadflow.journal import (
     Pump,
     Supply,
 )
+from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid, reduced
@@ -347,6 +348,27 @@ def test_a_growing_load_that_has_closed_the_ends_of_a_shell_grows_no_further(mon
     with pytest.raises(SolverError, match="touches the elastic shell"):
         drawn("shell", 2366)[1]()
     assert sum(steps) < 600  # 1574 where it grows to where none is found
+
+
+def test_steps_in_a_shell_leave_the_gap_that_they_were_tried_for(monkeypatch):
+    """Cells that fill are limited in what is tried as in what is taken, and open it no farther."""
+    left: list[bool] = []
+    tried = ElasticFilm.step_share
+
+    def step_share(film: Any, u: Any, columns: Any, weights: Any, way: Any, fills: bool) -> float:
+        least, taken = film.gap.least_after(way[0]), u.copy()
+        share = tried(film, u, columns, weights, way, fills)
+        film.correct(taken, columns, share * weights, fills)
+        there = way[0] + share * (way[1] - way[0])
+        film.narrowest(taken, there)
+        left.append(film.gap.least(there) >= least)
+        return share
+
+    monkeypatch.setattr(ElasticFilm, "step_share", step_share)
+    with pytest.raises(SolverError, match="touches the elastic shell"):
+        drawn("shell", 177)[1]()
+    assert len(left) > 50
+    assert all(left)
 
 
 @pytest.mark.parametrize("number", [238, 923])

@@ -247,6 +247,19 @@ def test_bad_cycles_and_an_endless_life_are_told():
         wear_bearing(BEARING, [start(1e6)], film(), Wear(Archard(1e-15), max_renewals=2))
 
 
+def test_a_cycle_that_finds_no_first_place_once_worn_is_named_once(monkeypatch):
+    found = [BEARING.equilibrium([(LOAD, 0.0)], [5.0], film())]
+
+    def equilibrium(*given, **words):
+        if not found:
+            raise SolverError("load 0: none")
+        return found.pop()
+
+    monkeypatch.setattr(JournalBearing, "equilibrium", equilibrium)
+    with pytest.raises(SolverError, match=r"^cycle: load 0: none$"):
+        wear_bearing(BEARING, [start(start=(0.0, 0.0))], film(), Wear(Archard(1e-15)))
+
+
 # --- in a scene -------------------------------------------------------------------------------
 
 SCENE = {

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
-from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film import _shell_kernels as shell_kernel
 from loadflow.journal.film.asperity_load import AsperityLoad, Touch, YieldingNodeLoad
 from loadflow.journal.film.compliance import Compliance
@@ -117,16 +116,15 @@ class ElasticFilm(DiscreteFilm):
         return self.gap.narrowest(position)
 
     def step_share(
-        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array], fills: bool
     ) -> float:
         """Share of a Newton step that leaves at least a third of the narrowest gap."""
         start, target = way
         least = self.gap.least_after(start)
-        share = super().step_share(u, columns, weights, way)
-        unlimited = self.law.filling(self.scale, limited=False)
+        share = super().step_share(u, columns, weights, way, fills)
         while share > _SMALLEST:
             trial = u.copy()
-            kernel.correct(trial, columns, share * weights, self.mesh.order, *unlimited)
+            self.correct(trial, columns, share * weights, fills)
             self._apply_law(trial)
             place = start + share * (target - start)
             self._grow(place)

@@ -403,9 +403,9 @@ class DiscreteFilm:
         return self.gap.advance(position, step)
 
     def step_share(
-        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array]
+        self, u: Array, columns: Array, weights: Array, way: tuple[Array, Array], fills: bool
     ) -> float:
-        """Share of a Newton step that leaves a film between shaft and shell; `way`: from, to."""
+        """Share of a Newton step, as `correct` applies it, that leaves a film; `way`: from, to."""
         if self.thickening is None:
             return 1.0
         return self.thickening.share(u, weights[0] * columns[0].reshape(u.shape)[self.mesh.order])

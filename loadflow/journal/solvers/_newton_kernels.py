@@ -55,6 +55,7 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
     residual, allowed, change, finest = np.inf, 0.0, np.inf, 0.0
     iteration, last, count = 0, 0, 0
     damped, short, ended, answered = False, False, False, False
+    kink = -np.inf if moving else film.filling[0]  # in motion the film before is near
     for j in range(film.weights.size):
         film.weights[j] = 1.0 if j == 0 else 0.0
     while True:
@@ -92,7 +93,7 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
         if answered:
             return ANSWERED, iteration, residual, allowed, last, count
         way, waits = 0.0, False
-        if free and not ended and not moving and film.filling[0] > -np.inf:
+        if free and not ended and kink > -np.inf:
             waits = imbalance(film, place, force, False, load_scale) > WAITS
         if free and not ended:
             x, y = place[0], place[1]
@@ -105,7 +106,6 @@ def solve(given, u, place, force, free, load_scale, motion, old, tolerance, most
                 way /= max(1.0 - np.hypot(place[0], place[1]), PRESSED)
                 place[0], place[1] = x, y
         if not ended:
-            kink = -np.inf if moving else film.filling[0]  # in motion the film before is near
             weights, most_filled = film.weights[:number], film.filling[1]
             change = correct(u, columns, weights, film.order, kink, most_filled) / film.scale
             change = way if way > change else change

@@ -100,13 +100,9 @@ def why_unsolved(
             return head + _most(film, gap, load)
     if has_touched(film, solution) and not gap.axisymmetric:
         left = 100 * min(solution.residual, 1.0)
-        touch, both = "the shaft touches the bore", "the film carries"
-        if film.contact is not None:
-            touch, both = f"{touch} beyond the law of contact", "film and asperities carry"
-        return (
-            f"{head}{touch}, {narrowest_place(bearing, gap, solution.position)},"
-            f" before {both} the last {left:.3g} % of the load"
-        )
+        both = "the film carries" if film.contact is None else "film and asperities carry"
+        where = touch_at(bearing, film, gap, solution.position)
+        return f"{head}{where}, before {both} the last {left:.3g} % of the load"
     return head + _unsolved(bearing, film, gap, solution, "no equilibrium found")
 
 

@@ -214,7 +214,7 @@ def solve_film(
     whole = as_cylinder(film)
     if whole is not None:
         return _at_once(film, whole, None, u, position, tolerance, max_iterations, motion)
-    weights = np.ones(1)
+    weights, fills = np.ones(1), not motion.moves
     check = _Check(film, tolerance, motion)
     for iteration in range(1, max_iterations + 1):
         try:
@@ -223,10 +223,10 @@ def solve_film(
             if iteration == 1:
                 return no_film(film)
             break
-        share = film.step_share(u, linear.columns[:1], weights, (position, position))
+        share = film.step_share(u, linear.columns[:1], weights, (position, position), fills)
         if share < _STUCK:
             break
-        change = film.correct(u, linear.columns[:1], share * weights, fills=not motion.moves)
+        change = film.correct(u, linear.columns[:1], share * weights, fills)
         if check.after(iteration, change, u, position, linear):
             return check.solution(u, position, linear, True, iteration)
     return check.unanswered(u, position, linear, iteration)
@@ -335,7 +335,7 @@ def _moved(
     target = film.target(position, step)
     velocity = motion.velocity(position)
     weights = film.weights(position, velocity, target, motion.velocity(target))
-    share = film.step_share(u, linear.columns, weights, (position, target))
+    share = film.step_share(u, linear.columns, weights, (position, target), not motion.moves)
     if share < 1.0:
         target, weights = position + share * (target - position), share * weights
     return target, weights, share
