@@ -259,7 +259,7 @@ def test_indicators_grow_with_what_they_stand_for():
 
 
 def test_the_shell_indicator_has_the_size_of_the_solved_films():
-    """docs/journal.md: 1e-10 m/Pa takes 8 % of the film and 7 % of the pressure."""
+    """docs/journal-shell.md: 1e-10 m/Pa takes 8 % of the film and 7 % of the pressure."""
     scene = make_scene(
         {
             "name": "s",
