@@ -39,7 +39,7 @@ def message(
         What was read, whose JSON Schema says what keys there are; None: they are not told.
     """
     lines = []
-    for item in _of_stated_kind(error.errors()):
+    for item in _of_given_type(_of_stated_kind(error.errors())):
         place = [*_place(item["loc"])]
         key = ".".join(str(part) for part in written(place, origins)) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
@@ -114,7 +114,7 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
 
 def _names_key(key: str, reason: str) -> bool:
     """Whether what is said of a scene as a whole begins with the key that it is about."""
-    return key == "scene" and re.match(r"[\w.-]+( = [^:]*)?: ", reason) is not None
+    return key == "scene" and re.match(r"[\w.-]+( = |: )", reason) is not None
 
 
 _NO_TABLE = ("dataclass_type", "model_type", "dict_type", "mapping_type")
@@ -211,8 +211,45 @@ def _place(location: Location) -> Iterator[int | str]:
     for k, part in enumerate(location):
         before = location[k - 1] if k else ""
         of_place = location[max(k - 3, 0) : k - 1] == ("thrust", "bearings") and part in AXIAL
-        if part not in _TAGS.get(before, ()) and not of_place:
+        if part not in _TAGS.get(before, ()) and not of_place and part != "[key]":
             yield part
+
+
+_TYPES = {
+    "constrained-": int | float, "float": int | float, "literal[": str, "dict[": Mapping,
+    "list[": list, "tuple[": list,
+}  # fmt: skip
+"""What a value is, by how pydantic names a type that a key may have beside others."""
+
+
+def _type_of(part: int | str) -> Any:
+    """Type that pydantic put after a key which may have several; None: it is a key."""
+    return next((kind for name, kind in _TYPES.items() if str(part).startswith(name)), None)
+
+
+def _of_given_type(errors: list[Any]) -> list[Any]:
+    """Of a key that may have several types, what is said of the one that stands there.
+
+    Where none of them stands there, one line says what all of them ask for.
+    """
+    shown, several = [], dict[Location, list[Any]]()
+    for item in errors:
+        k = next((k for k, part in enumerate(item["loc"]) if k and _type_of(part)), None)
+        if k is None:
+            shown.append(item)
+            continue
+        place = item["loc"][:k]
+        told = {**item, "loc": (*place, *item["loc"][k + 1 :]), "of": _type_of(item["loc"][k])}
+        several.setdefault(place, []).append(told)
+    for place, items in several.items():
+        given = next((one["input"] for one in items if one["loc"] == place), None)
+        fitting = [one for one in items if given is None or isinstance(given, one["of"])]
+        fitting = [one for one in fitting if one["loc"] != place or one["type"] != "literal_error"]
+        asked = [one["msg"].partition(", unable")[0] for one in items if one["loc"] == place]
+        words = " or ".join(one.removeprefix("Input should be ") for one in asked)
+        words = words.replace("valid dictionary", "table")
+        shown += fitting or [{**items[0], "type": "", "msg": f"Input should be {words}"}]
+    return shown
 
 
 def _of_stated_kind(errors: list[Any]) -> list[Any]:
