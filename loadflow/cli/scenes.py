@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from loadflow.cli import completing
 from loadflow.cli.base import (
     AsJson,
     OtherSettings,
@@ -325,7 +326,10 @@ def report(
 
 @app.command()
 def bench(
-    stages: Annotated[list[str] | None, typer.Argument(help="Stages; default: all.")] = None,
+    stages: Annotated[
+        list[str] | None,
+        typer.Argument(help="Stages; default: all."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the measured speed and error of every model; `benchmarks/run` measures them anew."""
@@ -348,7 +352,10 @@ def bench(
 
 @app.command()
 def validate(
-    names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(help="Tables; default: all.", autocompletion=completing.tables),
+    ] = None,
     failed: Annotated[
         bool, typer.Option("--failed", help="Show only the numbers that are out of tolerance.")
     ] = False,
