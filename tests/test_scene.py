@@ -137,3 +137,17 @@ def test_a_key_that_may_have_several_types_is_told_by_the_one_that_stands_there(
         make_scene({"name": "own", "accuracy": accuracy})
     assert str(refused.value).endswith(told)
     assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("stated", "told"),
+    [
+        ({"loads": {"dlc": 1.1}}, "loads.dlc = 1.1: must be a text in quotes or a valid list"),
+        ({"journal": {"shell": "thick"}}, "journal.shell = 'thick': must be a table"),
+    ],
+)
+def test_a_key_of_several_types_is_told_in_one_line_without_their_names(stated, told):
+    with pytest.raises(InputError) as refused:
+        make_scene({"name": "own"} | stated)
+    assert told in str(refused.value)
+    assert str(refused.value).count("\n") == 0
