@@ -25,7 +25,7 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
-from loadflow.journal.solvers.crowding import may_double, on_crowded_cells
+from loadflow.journal.solvers.crowding import may_double, other_cells
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.floating import carries_there, floating_film
@@ -103,13 +103,13 @@ class Statics:
     @cached_property
     def finer(self) -> Statics:
         """The same on a graded mesh."""
-        return self.on(self.options.graded())
+        return self._on(self.options.graded())
 
     def suited(self, position: Array) -> Statics:
         """The film on cells that resolve the gap at `position`: these, or where allowed, graded."""
         return self.finer if self.can_refine and not self.film.resolves(position) else self
 
-    def on(self, options: Film, crowd: tuple[float, ...] | None = None) -> Statics:
+    def _on(self, options: Film, crowd: tuple[float, ...] | None = None) -> Statics:
         """The same on another mesh, to the same scale."""
         other = Statics(self.bearing, options, self.line, self.rate, crowd)
         other.film.raise_scale(self.film.scale)
@@ -139,7 +139,7 @@ class Statics:
         to `meshes` others, as long as the `effort` lasts.
         """
         refine, effort = self.can_refine, effort or Effort.of(self.film, control.max_iterations)
-        others = self.film.elastic and meshes > 0 and may_double(self, omega)
+        others = self.film.elastic and meshes > 0 and may_double(self.options, omega)
         effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
         effort.kept = 0.0
@@ -148,11 +148,12 @@ class Statics:
             return self, solution
         if refine:
             return self.finer.resolve(index, load, omega, None, control, meshes, effort)
-        crowded = on_crowded_cells(self, solution) if meshes and not effort.over else None
-        if crowded is None:
+        given = self.film, self.gap, self.options, self.crowd, solution
+        cells = other_cells(*given) if meshes and not effort.over else None
+        if cells is None:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
-        return crowded.resolve(index, load, omega, None, control, left, effort)
+        return self._on(*cells).resolve(index, load, omega, None, control, left, effort)
 
     def solve(
         self,
