@@ -112,11 +112,40 @@ def test_a_shaft_that_stops_and_turns_back_takes_its_pads_along(law):
     assert bool((path.residual < 1e-8).all())
 
 
-def test_heat_over_the_area_is_refused_by_name():
-    warm = Film(heat=FilmHeat("iso-vg-68"), cavitation=MassConserving(), edge_pressure=1e5)
+def warm(rung="grid", cells=(48, 8)):
+    heat = FilmHeat("mineral-vg-320", inlet_temperature=313.15)
+    return Film(None, MassConserving(), 1e5, grid=cells, rung=rung, heat=heat)
+
+
+def test_a_steady_load_keeps_warm_pads_and_their_heat_as_at_rest():
+    """Also that of the two pads without load, past which goes what their narrowest place drags."""
+    load, time = np.array([1.5e6, 3e5]), np.linspace(0.0, 1.0, 6)
+    rest = BEARING.equilibrium(load, SPEED, warm())
+    path = BEARING.orbit(time, np.tile(load, (6, 1)), SPEED, warm())
+    assert (rest.pad_tilt == 0.0).sum() == 2
+    np.testing.assert_allclose(path.pad_tilt, np.tile(rest.pad_tilt, (6, 1)), atol=1e-9)
+    for name in ("minimum_film", "maximum_pressure", "friction_power", "temperature"):
+        np.testing.assert_allclose(path[name], getattr(rest, name), rtol=1e-7, err_msg=name)
+    cold = BEARING.orbit(time, np.tile(load, (6, 1)), SPEED, warm().isothermal())
+    assert float(cold.friction_power[0] / path.friction_power[0]) > 1.1
+
+
+def test_the_mean_heat_is_that_of_the_pads_that_each_load_has():
+    """The load turns by one pad and back: of its samples each leaves other pads without a film."""
+    time = np.linspace(0.0, 2 * PERIOD, 31)
+    angle = 0.2 * np.pi * (1 - np.cos(np.pi * time / PERIOD))
+    load = 1.5e6 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    path = BEARING.orbit(time, load, SPEED, warm())
+    without = (path.pad_tilt == 0.0).sum("time").values
+    assert np.any((without > 0) & (without < 31))  # a pad comes and goes
+    assert path.attrs["heat_imbalance"] < 1e-8
+    assert path.attrs["heat_residual"] < 1e-6
+
+
+def test_heat_over_the_area_is_refused_by_name_on_reduced():
     time = np.linspace(0.0, 1.0, 5)
-    with pytest.raises(InputError, match="one temperature for pads in motion"):
-        BEARING.orbit(time, turning(time), SPEED, warm)
+    with pytest.raises(InputError, match='one temperature for pads in motion on rung = "reduced"'):
+        BEARING.orbit(time, turning(time), SPEED, warm("reduced"))
 
 
 def reduced(law=None):
