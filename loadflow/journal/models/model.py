@@ -204,8 +204,6 @@ def _pairs(
         closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
         yield "step", "adaptive", closed and steps.step == "adaptive", given
     if verb == "in_motion":
-        one = 'that of one temperature for pads in motion on rung = "reduced"'
-        yield "heat", film.heat, pads and over_area and film.rung == "reduced", one
         one = "without capacity on a closed path"
         yield "heat", film.heat, stored and bool(steps.periodic), one
         free = stored and growth is not None and (pads or line.moment is not None)
