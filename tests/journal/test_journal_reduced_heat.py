@@ -383,8 +383,6 @@ def test_pads_with_heat_over_the_area_are_those_of_the_grid():
     for name in (*TOLD, "eccentricity", "pad_tilt", "stiffness", "film_temperature"):
         np.testing.assert_array_equal(getattr(own, name), getattr(grid, name))
     assert own.maximum_temperature > HEAT.inlet_temperature + 5.0
-    with pytest.raises(InputError, match="that of one temperature for pads in motion"):
-        pads.orbit(np.linspace(0.0, 1e-2, 3), np.tile(LOAD, (3, 1)), SPEED, film())
 
 
 def test_growth_asks_for_a_film_that_runs_round():

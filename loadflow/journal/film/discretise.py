@@ -56,18 +56,21 @@ def is_cylindrical(bearing: JournalGeometry, film: Film, line: Line) -> bool:
 
 
 def build_film(
-    diameter: float, width: float, relative_clearance: float, options: Film
+    diameter: float, width: float, relative_clearance: float, options: Film, *grooves: float
 ) -> DiscreteFilm:
-    """Discrete film of a cylindrical bearing (m) around an aligned shaft."""
-    return cylindrical_film(diameter, width, relative_clearance, options)[1]
+    """As `cylindrical_film`, without the gap."""
+    return cylindrical_film(diameter, width, relative_clearance, options, *grooves)[1]
 
 
 def cylindrical_film(
-    diameter: float, width: float, relative_clearance: float, options: Film
+    diameter: float, width: float, relative_clearance: float, options: Film, *grooves: float
 ) -> tuple[CylindricalGap, DiscreteFilm]:
-    """Gap and discrete film of a cylindrical bearing (m) around an aligned shaft."""
+    """Gap and discrete film of a cylindrical bearing (m) around an aligned shaft.
+
+    `grooves` are pressures (Pa) of a bore of which these are but the units: oil may enter there.
+    """
     law, supply, contact = options.law, options.supply, options.contact
-    options.check_oil()
+    options.check_oil(*grooves)
     inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
     graded = options.grading == "graded"
@@ -116,8 +119,7 @@ def shaped_film(
         options.inlet,
         "None but for a cylindrical, aligned bearing",
     )
-    bore, pressure = Bore.of(bearing), bearing.shape.groove_pressure
-    pressure = options.edge_pressure if pressure is None else pressure
+    bore, pressure = Bore.of(bearing), bearing.pressure_between(options.edge_pressure)
     options.check_oil(pressure)
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
     half = half and (options.shell is None or options.shell.symmetric_on(options.cells[1]))
