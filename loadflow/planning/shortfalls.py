@@ -34,26 +34,26 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
     for result, errors in choice.errors.items():
         allowed = wanted.allowed(result)
         links = giving(result).results[result](choice.scene)
+        parts = {
+            quantity: [*contributions(choice.scene, result, quantity, of, choice.estimates)]
+            for quantity, of in links.items()
+        }
         missing = [quantity for quantity, error in errors.items() if error is None]
-        over = {q: e for q, e in errors.items() if e is not None and e > allowed}
+        known = {name: sum(part.share or 0.0 for part in of) for name, of in parts.items()}
+        over = {name: share for name, share in known.items() if share > allowed}
         if missing:
-            parts = [
-                *contributions(
-                    choice.scene, result, missing[0], links[missing[0]], choice.estimates
-                )
-            ]
-            unknown = next(part for part in parts if part.share is None)
+            unknown = next(part for part in parts[missing[0]] if part.share is None)
             said.append(
                 f"{result}: {', '.join(missing)} not known to hold: "
                 f"{_unknown_in_words(wanted, choice, unknown)}"
             )
         if over:
             worst = max(over, key=over.__getitem__)
-            parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
-            most = max(parts, key=lambda part: part.share or 0.0)
-            sizes = ", ".join(f"{q} by up to {percent(e)}" for q, e in over.items())
+            most = max(parts[worst], key=lambda part: part.share or 0.0)
+            sizes = ", ".join(f"{name} by up to {percent(e)}" for name, e in over.items())
+            off = "off, by what is known," if {*over} & {*missing} else "off"
             said.append(
-                f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
+                f"{result}: {off} in {sizes}, {_asked(wanted, allowed)}; most of it "
                 f"({percent(most.share or 0.0)}): {_in_words(wanted, choice, most)}"
             )
     return said
