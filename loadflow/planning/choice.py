@@ -216,7 +216,7 @@ class _Choosing:
         Where none is valid that is accurate enough, the most accurate one of the others. What
         nobody knows counts alike: an error, or an effect that a section leaves out in doubt.
         """
-        picked, errors = self._candidates(alternatives)
+        names, picked, errors = self._candidates(alternatives)
         allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
         doubts = {
             id(one): self.doubts(name, one) for name in alternatives for one in alternatives[name]
@@ -231,7 +231,7 @@ class _Choosing:
         good = fewest & (excess <= 1.0 + 1e-9)
 
         def scene_of(k: int) -> Scene:
-            return self.with_sections(dict(zip(alternatives, picked[k])))
+            return self.with_sections(dict(zip(names, picked[k])))
 
         def cost(k: int) -> tuple[tuple[int, float], float]:
             return self.seconds(scene_of(k)), float(known[k].sum())
@@ -245,9 +245,9 @@ class _Choosing:
         ranked = (k for some, by in groups for k in sorted(np.flatnonzero(some).tolist(), key=by))
         best = next((k for k in ranked if is_valid(scene_of(k))), None)
         if best is None:
-            names = ", ".join(name for name, found in alternatives.items() if len(found) > 1)
+            left = ", ".join(name for name, found in alternatives.items() if len(found) > 1)
             raise InputError(
-                f"{self.scene.name}: no models of {names} that the scene leaves open go together "
+                f"{self.scene.name}: no models of {left} that the scene leaves open go together "
                 'with what it states; name their rungs, or accuracy = "given"'
             )
         why = "most accurate that was measured"
@@ -258,8 +258,10 @@ class _Choosing:
             why += ", by the errors that are known"
         return scene_of(best), why
 
-    def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
-        """All combinations, and their errors (n, 2, answers) as `_shares` tells them.
+    def _candidates(
+        self, alternatives: dict[str, list[Any]]
+    ) -> tuple[list[str], list[tuple[Any, ...]], Floats]:
+        """Names of sections, all combinations of these, and errors (n, 2, answers) as of `_shares`.
 
         A link's share depends on one section. Where the links themselves depend on a section, as on
         that of a film that moves, its alternatives are gone through one by one, and the others once
@@ -272,6 +274,7 @@ class _Choosing:
             if any(self.links(self.with_sections({name: one})) != stated for one in found)
         }
         others = {name: found for name, found in alternatives.items() if name not in forking}
+        rests = [*product(*others.values())]
         combined, errors = [], []
         known: list[tuple[Any, Floats]] = []  # links, and what the others bring to them
         for fork in product(*forking.values()):
@@ -286,10 +289,8 @@ class _Choosing:
             for name in held:
                 table = table + self._shares(scene, links, name, tuple(fixed))
             errors.append(table)
-            for rest in product(*others.values()):
-                whole = fixed | dict(zip(others, rest))
-                combined.append(tuple(whole[name] for name in alternatives))
-        return combined, np.concatenate(errors)
+            combined += [fork + rest for rest in rests]
+        return [*forking, *others], combined, np.concatenate(errors)
 
     def _table(
         self,
