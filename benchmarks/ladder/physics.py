@@ -103,7 +103,8 @@ cases; thinnest film of the collar and of N and N2; largest ε of both; mean fri
 of a roller; life of M. All have the same winds, on 11 × 144 points as the plan of the main job
 takes them, as a seed on another grid is another wind: what a finer grid changes is a row of
 [physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. The machine
-had five times as much to do as it has cores; ratios count. Written by `python -m benchmarks.ladder.physics runs`."""
+had five times as much to do as it has cores; ratios count. Written by
+`python -m benchmarks.ladder.physics runs`."""
 
 
 RESTS_ON = "rests_on"
