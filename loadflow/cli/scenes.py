@@ -30,6 +30,7 @@ from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
+from loadflow.numerics.collections import few_collections
 from loadflow.numerics.fields import none_such
 from loadflow.quantities import load_cases, percent
 
@@ -45,8 +46,9 @@ LoadFiles = Annotated[
 
 def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     """Read a scene, with other load files and under another name if they are given."""
-    from loadflow.scene.changed import with_loads, with_name
-    from loadflow.scene.scene import read_scene
+    with few_collections():
+        from loadflow.scene.changed import with_loads, with_name
+        from loadflow.scene.scene import read_scene
 
     scene = read_scene(path)
     if loads or any(value is not None for value in reading.values()):
@@ -90,8 +92,9 @@ def run(
             if not _was_run(scene, out_folder, name):
                 # before anything else: they read their modules for seconds, as this process does
                 processes = nullcontext(begun.enter_context(processes))
-            from loadflow.running.profile import Profile
-            from loadflow.running.runner import run_on
+            with few_collections():
+                from loadflow.running.profile import Profile
+                from loadflow.running.runner import run_on
 
             result = run_on(
                 processes,

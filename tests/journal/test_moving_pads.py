@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from loadflow.errors import InputError
 from loadflow.journal import (
     FilmHeat,
     GasMixture,
@@ -112,11 +111,60 @@ def test_a_shaft_that_stops_and_turns_back_takes_its_pads_along(law):
     assert bool((path.residual < 1e-8).all())
 
 
-def test_heat_over_the_area_is_refused_by_name():
-    warm = Film(heat=FilmHeat("iso-vg-68"), cavitation=MassConserving(), edge_pressure=1e5)
-    time = np.linspace(0.0, 1.0, 5)
-    with pytest.raises(InputError, match="one temperature for pads in motion"):
-        BEARING.orbit(time, turning(time), SPEED, warm)
+def warm(rung="grid", cells=(48, 8)):
+    heat = FilmHeat("mineral-vg-320", inlet_temperature=313.15)
+    return Film(None, MassConserving(), 1e5, grid=cells, rung=rung, heat=heat)
+
+
+def turned_by_a_pad(time):
+    """A load that turns by one pad and back: a pad comes and goes."""
+    angle = 0.2 * np.pi * (1 - np.cos(np.pi * time / PERIOD))
+    return 1.5e6 * np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+
+
+@pytest.mark.parametrize(("rung", "share"), [("grid", 1e-7), ("reduced", 5e-3)])
+def test_a_steady_load_keeps_warm_pads_and_their_heat_as_at_rest(rung, share):
+    """Also that of the two pads without load, past which goes what their narrowest place drags."""
+    load, time = np.array([1.5e6, 3e5]), np.linspace(0.0, 1.0, 6)
+    rest = BEARING.equilibrium(load, SPEED, warm())
+    path = BEARING.orbit(time, np.tile(load, (6, 1)), SPEED, warm(rung))
+    assert (rest.pad_tilt == 0.0).sum() == 2
+    tilts = np.tile(rest.pad_tilt, (6, 1))
+    np.testing.assert_allclose(path.pad_tilt, tilts, atol=share * np.abs(tilts).max())
+    for name in ("minimum_film", "friction_power", "temperature"):
+        np.testing.assert_allclose(path[name], getattr(rest, name), rtol=share, err_msg=name)
+    np.testing.assert_allclose(path.maximum_pressure, rest.maximum_pressure, rtol=4 * share)
+    cold = BEARING.orbit(time, np.tile(load, (6, 1)), SPEED, warm().isothermal())
+    assert float(cold.friction_power[0] / path.friction_power[0]) > 1.1
+
+
+def test_the_mean_heat_is_that_of_the_pads_that_each_load_has():
+    time = np.linspace(0.0, 2 * PERIOD, 31)
+    path = BEARING.orbit(time, turned_by_a_pad(time), SPEED, warm())
+    without = (path.pad_tilt == 0.0).sum("time").values
+    assert np.any((without > 0) & (without < 31))  # a pad comes and goes
+    assert path.attrs["heat_imbalance"] < 1e-8
+    assert path.attrs["heat_residual"] < 1e-6
+
+
+@pytest.mark.parametrize("more", [{}, {"periodic": True}, {"moment": (1e4, 2e4)}])
+def test_warm_pads_on_reduced_follow_the_grid(more):
+    time = np.linspace(0.0, 2 * PERIOD, 31)
+    load = turned_by_a_pad(time)
+    load[-1] = load[0]
+    ours, theirs = (
+        BEARING.orbit(time, load, SPEED, warm(rung, (60, 16)), **more)
+        for rung in ("reduced", "grid")
+    )
+    for name, share in (
+        ("eccentricity_ratio", 5e-4),
+        ("minimum_film", 0.003),
+        ("maximum_pressure", 0.01),
+        ("friction_power", 0.005),
+        ("temperature", 1e-4),
+    ):
+        np.testing.assert_allclose(ours[name], theirs[name], rtol=share, err_msg=name)
+    assert ours.attrs["heat_imbalance"] < 1e-8
 
 
 def reduced(law=None):

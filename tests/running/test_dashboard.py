@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -15,7 +16,8 @@ from loadflow.running.dashboard import RunView, application
 from loadflow.running.runner import run
 from loadflow.scene.scene import make_scene
 
-pytest.importorskip("panel", reason="panel is not installed (extra view)")
+if find_spec("panel") is None:  # to read it takes seconds, of each process that collects tests
+    pytest.skip("panel is not installed (extra view)", allow_module_level=True)
 browser = pytest.importorskip("browser", reason="needs tornado, which comes with panel")
 
 

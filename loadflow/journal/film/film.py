@@ -90,6 +90,7 @@ class DiscreteFilm:
         self._still = np.zeros((len(gap.coefs), nx, gap.across.shape[1]))  # growth at rest
         self.state = np.empty((8, nx, nz))
         self.elastic = False  # whether the gap follows the pressure
+        self.held_rigid = True  # whether it does not now: an elastic shell may be held so
         self.mirrors = 2.0 if mesh.half else 1.0
         self.unit = self.mirrors * radius**2  # of loads
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N
