@@ -322,7 +322,7 @@ def _whole(
         level = return_level(groups, weight / weight.sum(), values, length)
         return None if level is None else (level.value, level.low, level.high)
     read = partial(source.read, table, values)
-    low, high = (np.nan, np.nan) if picks is None else bounds(read(picks))
+    low, high = (np.nan, np.nan) if picks is None else bounds(read(picks), groups)
     return float(read(np.arange(values.size))), low, high
 
 

@@ -17,7 +17,7 @@ from loadflow.errors import InputError
 from loadflow.readers.aliases import Channels, Frame, aliases
 from loadflow.readers.series import to_series
 from loadflow.readers.table import Table
-from loadflow.readers.text import read_text
+from loadflow.readers.text import decoded, read_text
 
 HEADING = re.compile(r"^\s*(?P<name>[^\[\(]+?)\s*(?:[\[\(](?P<unit>[^\]\)]*)[\]\)])?\s*$")
 
@@ -79,7 +79,7 @@ def read_csv(
 def is_series(path: Path) -> bool:
     """Whether the heading of a CSV file has a column of the time, as a load series has."""
     with path.open("rb") as file:
-        start = file.read(2**16).decode("latin-1")
+        start = decoded(file.read(2**16))
     lines = (line for line in start.splitlines() if line.strip() and line[0] != "#")
     return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(lines, "")) is not None
 

@@ -19,7 +19,7 @@ from loadflow.errors import InputError
 from loadflow.readers.aliases import Channels, Frame, aliases
 from loadflow.readers.series import to_series
 from loadflow.readers.table import Table
-from loadflow.readers.text import number_rows, read_text
+from loadflow.readers.text import UTF_16, number_rows, read_text
 
 SEARCHED_LINES = 40
 """Lines within which the names of the channels must stand; OpenFAST has them in line 7."""
@@ -94,7 +94,8 @@ def read_table(path: Path) -> Table:
         start = file.read(64)
     if not start:
         raise InputError(f"{path}: the file is empty")
-    binary = b"\0" in start or (path.suffix.lower() == ".outb" and not start.isascii())
+    odd = b"\0" in start or (path.suffix.lower() == ".outb" and not start.isascii())
+    binary = odd and not start.startswith(UTF_16)
     table = _read_binary(path) if binary else _read_text(path)
     first, unit = table.names[0], table.units[0]
     if first.casefold() != "time" or unit.casefold().strip("()") not in ("s", "sec"):

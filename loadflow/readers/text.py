@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import codecs
+import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +13,15 @@ from numpy.typing import NDArray
 from loadflow.errors import InputError
 from loadflow.storage import check_content
 
+UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""First bytes of a text in UTF-16, as shells of Windows write."""
+
+_FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[dD]([+-]?\d+)|([+-]\d+))")
+"""A number of Fortran: an exponent of three digits takes the place of the E, ``1.5-102``."""
+
 
 def read_text(path: Path) -> str:
-    """Return the content of a text file, in UTF-8 or else in Latin-1 (a ``·`` of old programs).
+    """Return the content of a text file; see `decoded`.
 
     Raises
     ------
@@ -24,8 +33,15 @@ def read_text(path: Path) -> str:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    if b"\0" in data:
+    if b"\0" in data and not data.startswith(UTF_16):
         raise InputError(f"{path}: the file is no text (a zero at byte {data.index(0)})")
+    return decoded(data)
+
+
+def decoded(data: bytes) -> str:
+    """Text in UTF-8, in UTF-16 that says so, or else in Latin-1 (a ``·`` of old programs)."""
+    if data.startswith(UTF_16):
+        return data.decode("utf-16", "replace")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -60,10 +76,12 @@ def number_rows(
     try:
         return np.array(fields, dtype=float)
     except ValueError:
-        for number, row in enumerate(fields, start + 1):
-            for field in row:
-                _check_number(field, f"{path}, line {number}")
-        raise
+        return np.array(
+            [
+                [_number(field, f"{path}, line {number}") for field in row]
+                for number, row in enumerate(fields, start + 1)
+            ]
+        )
 
 
 def _closing(line: str) -> bool:
@@ -71,8 +89,13 @@ def _closing(line: str) -> bool:
     return line.strip().startswith("This output file was closed")
 
 
-def _check_number(field: str, where: str) -> None:
+def _number(field: str, where: str) -> float:
+    """Number of a field, also as Fortran writes it; stars of one that it could not fit are NaN."""
     try:
-        float(field)
+        return float(field)
     except ValueError:
+        if match := _FORTRAN.fullmatch(field):
+            return float(f"{match[1]}e{match[2] or match[3]}")
+        if not field.strip("*"):
+            return math.nan
         raise InputError(f"{where}: {field!r} is not a number") from None

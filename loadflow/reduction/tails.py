@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
-from loadflow.reduction.extremes import block_maxima, gumbel_parameters
+from loadflow.reduction.extremes import block_maxima, gumbel_parameters, l_moments
 
 YEAR = 365.25 * 86_400.0
 LEAST = 10  # values that a fit needs
@@ -222,8 +222,8 @@ def long_term_extreme(
     years : float
         Return period: IEC 61400-1 takes 50.
     confidence : float
-        Of the interval, a parametric bootstrap of the fits; doubt about the distribution itself is
-        not in it.
+        Of the interval, a parametric bootstrap of the fits (bootstrap-t: misses of resampled fits
+        in their own scale); doubt about the distribution itself is not in it.
     seed : int
         Of the bootstrap.
 
@@ -257,11 +257,14 @@ def long_term_extreme(
     value = _level(best, shares, wanted)
     rng = np.random.default_rng(seed)
     drawn = np.stack([tail._resampled(rng, RESAMPLES) for tail in tails])
-    low, high = np.quantile(
-        _level(drawn, shares, wanted), [(1 - confidence) / 2, (1 + confidence) / 2]
-    )
+    level = _level(drawn, shares, wanted)
+    # pivot: how far a fit to as many values misses the level, in its own scale
+    miss = (level - value) / _scale(level, drawn, shares)
+    upper, lower = np.quantile(miss, [(1 - confidence) / 2, (1 + confidence) / 2])
+    scale = _scale(value, best, shares)
+    low, high = (float((value - scale * end)[0]) for end in (lower, upper))
     rates = shares * [float(tail.rate_above(value[0])) for tail in tails]
-    return LongTermExtreme(float(value[0]), float(low), float(high), rates / rates.sum())
+    return LongTermExtreme(float(value[0]), low, high, rates / rates.sum())
 
 
 def _rate(level: Floats, parameters: Floats) -> Floats:
@@ -273,6 +276,14 @@ def _rate(level: Floats, parameters: Floats) -> Floats:
     inside = np.maximum(1.0 + xi * y, 1e-300)
     exponent = np.where(curved, -np.log(inside) / xi, -y)
     return rate * np.exp(np.clip(exponent, -700.0, 700.0))
+
+
+def _scale(level: Floats, parameters: Floats, shares: Floats) -> Floats:
+    """By how much the level (draws,) rises as the rate of all tails falls by the factor e."""
+    threshold, scale, shape, _ = np.moveaxis(parameters, -1, 0)
+    own = scale + shape * (level - threshold)
+    rate = shares[:, None] * _rate(level, parameters) * (own > 0)
+    return np.asarray(rate.sum(axis=0) / (rate / np.where(own > 0, own, 1.0)).sum(axis=0))
 
 
 def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:
@@ -298,9 +309,7 @@ def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:
 
 def _pareto(excess: Floats) -> tuple[Floats, Floats]:
     """Scale and shape of a generalised Pareto distribution by L-moments along the last axis."""
-    from scipy.stats import lmoment
-
-    first, second = lmoment(excess, order=[1, 2], axis=-1)
+    first, second = l_moments(excess)
     shape = 2.0 - first / np.maximum(second, np.finfo(float).tiny)
     return first * (1.0 - shape), shape
 

@@ -186,7 +186,7 @@ class AveragedSpectrum:
     dof: float
 
 
-def segments(x: Floats, length: int) -> Floats:
+def segments(x: Floats, length: int, *, own_means: bool = False) -> Floats:
     """Power of Hann-tapered, half-overlapping segments of `x` about its mean.
 
     Parameters
@@ -195,6 +195,10 @@ def segments(x: Floats, length: int) -> Floats:
         Series.
     length : int
         Values per segment.
+    own_means : bool
+        About the mean of each tapered segment instead. What is slower than a segment then does not
+        leak into its first frequency, and with it the mean of the record, which all its segments
+        share.
 
     Returns
     -------
@@ -205,6 +209,8 @@ def segments(x: Floats, length: int) -> Floats:
 
     hann = 0.5 - 0.5 * np.cos(2.0 * np.pi / length * np.arange(length))
     views = np.lib.stride_tricks.sliding_window_view(x - x.mean(), length)[:: max(length // 2, 1)]
+    if own_means:
+        views = views - (views @ hann / hann.sum())[:, None]
     transform = rfft(views * hann, axis=1)
     return transform.real**2 + transform.imag**2
 

@@ -184,7 +184,8 @@ class Calibrated:
             )
         length = 2 * shortest // (SEGMENTS + 1)
         starts = _band_starts(length // 2 + 1)
-        power = [np.add.reduceat(segments(x, length), starts, axis=1)[:, 1:] for x in samples]
+        tapered = [segments(x, length, own_means=True) for x in samples]
+        power = [np.add.reduceat(p, starts, axis=1)[:, 1:] for p in tapered]
         mean = np.mean([p.mean(axis=0) for p in power], axis=0)
         kept = mean > LEAST_SHARE * mean.sum()
         floor = 1e-12 * mean[kept]

@@ -46,14 +46,29 @@ class Groups:
         """Number of seeds of each group."""
         return tuple(len(group) for group in self.members)
 
+    @property
+    def tail(self) -> float:
+        """Share of the resamples beyond each end of the 95 % interval.
+
+        Resamples of n seeds scatter by √((n − 1)/n) too little and take the scatter of the seeds
+        for known. The share is that at which those of a mean span Student's interval
+        [Hesterberg 2015, expanded percentile interval]: 2.5 % for many seeds, 0.24 % for six.
+        """
+        from scipy.special import ndtr, stdtrit
+
+        sizes = [size for size in self.sizes if size > 1]
+        free = sum(sizes) - len(sizes)
+        return float(ndtr(-math.sqrt(sum(sizes) / free) * stdtrit(free, (1 + LEVEL) / 2)))
+
 
 def interval(
     groups: Groups, statistic: Callable[[Picks], float], resamples: int = RESAMPLES
 ) -> tuple[float, float]:
     """95 % interval of a statistic, by the percentiles of a bootstrap over the seeds of each group.
 
-    An extreme cannot grow beyond the largest that the seeds have, so that its interval reaches only
-    to one side; with few seeds every interval is too narrow.
+    The percentiles are widened as the number of seeds asks for (`Groups.tail`). No resample lies
+    beyond the seeds, so that the interval of an extreme reaches only to one side, and all are too
+    narrow below six seeds: of a mean it holds the truth in 75 % with three, 50 % with two.
 
     Parameters
     ----------
@@ -78,7 +93,7 @@ def interval(
     """
     if max(groups.sizes, default=0) < 2:
         return math.nan, math.nan
-    return bounds(np.array([statistic(some) for some in drawn(groups, resamples)], float))
+    return bounds(np.array([statistic(some) for some in drawn(groups, resamples)], float), groups)
 
 
 def drawn(groups: Groups, resamples: int = RESAMPLES) -> Picks:
@@ -95,10 +110,9 @@ def drawn(groups: Groups, resamples: int = RESAMPLES) -> Picks:
     return np.concatenate(own, axis=1)
 
 
-def bounds(found: NDArray[np.float64]) -> tuple[float, float]:
-    """Both ends of the interval, from the answers of all resamples."""
-    tail = (1 - LEVEL) / 2
-    low, high = np.nanquantile(found, [tail, 1 - tail])
+def bounds(found: NDArray[np.float64], groups: Groups) -> tuple[float, float]:
+    """Both ends of the interval, from the answers of all resamples of the seeds of `groups`."""
+    low, high = np.nanquantile(found, [groups.tail, 1 - groups.tail])
     return float(low), float(high)
 
 

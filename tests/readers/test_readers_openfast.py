@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from openfast_files import UNITS, channels, write_out, write_outb
 
 from loadflow.errors import InputError
@@ -253,3 +254,38 @@ def test_loads_of_a_blade_root_are_read_all_or_none(tmp_path):
             write_outb(tmp_path / "c.outb", data, units=units, kind=3),
             channels={"root_force_x": "RootFzc1"},
         )
+
+
+@pytest.mark.parametrize("encoding", ["utf-16", "utf-8-sig", "latin-1"])
+def test_text_in_any_usual_encoding_is_read(tmp_path, encoding):
+    path = write_out(tmp_path / "a.out", channels())
+    expected = read_openfast(path)
+    path.write_bytes(("Düse\r\n" + path.read_text()).encode(encoding))
+    xr.testing.assert_identical(read_openfast(path), expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("1.5-102", 1.5e-102), ("-.25D+02", -25.0), ("2.5+003", 2500.0)]
+)
+def test_numbers_are_read_as_fortran_writes_them(tmp_path, text, value):
+    path = write_out(tmp_path / "a.out", channels())
+    lines = path.read_text().splitlines()
+    at = next(i for i, line in enumerate(lines) if line.split()[:1] == ["Time"])
+    row = lines[at + 5].split()
+    row[lines[at].split().index("RotThrust")] = text
+    lines[at + 5] = "\t".join(row)
+    path.write_text("\n".join(lines))
+    assert read_openfast(path)["hub_force"][0, 3] == pytest.approx(1e3 * value, rel=1e-6)
+
+
+def test_a_number_that_did_not_fit_matters_in_its_channel_alone(tmp_path):
+    """Fortran fills the field with stars."""
+    data = channels()
+    units = UNITS | {"YawBrMzp": "(kN-m)"}
+    path = write_out(tmp_path / "a.out", data | {"YawBrMzp": np.full(400, 123456.0)}, units)
+    path.write_text(path.read_text().replace("1.2346E+05", "**********", 1))
+    plain = write_out(tmp_path / "b.out", data)
+    kept = read_openfast(plain).drop_vars("file")
+    xr.testing.assert_identical(read_openfast(path).drop_vars("file"), kept)
+    with pytest.raises(InputError, match=r"'YawBrMzp', index 0 .*nan is not finite"):
+        read_openfast(path, {"hub_moment_z": "YawBrMzp"})

@@ -38,6 +38,14 @@ def test_false_alarm_rate_with_a_periodic_load_in_the_noise():
     assert alarms <= binom.ppf(0.9995, 300, 0.05)
 
 
+def test_false_alarm_rate_of_the_spectrum_of_skewed_noise():
+    """Squares of slow noise: what leaked from the record's mean into the lowest band gave 20 %."""
+    rng = np.random.default_rng(8)
+    records = (ar1(rng, (6, 3000), 0.2, 6.0) ** 2 for _ in range(200))
+    alarms = sum(equality(x, 0.2).spectrum.pvalue < 0.05 for x in records)
+    assert alarms <= binom.ppf(0.9995, 200, 0.05)
+
+
 def test_as_printed_rejects_equal_seeds_always():
     rng = np.random.default_rng(7)
     got = [equality(ar1(rng, (6, N), DT, 5.0), DT, method="as-printed") for _ in range(20)]

@@ -95,7 +95,10 @@ def _cells(options: Film, half: bool) -> tuple[int, int]:
 def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedMesh:
     """Cells of a film in a bore of any shape, of `half` of its width or all of it."""
     bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
-    graded = options.grading == "graded" or (options.grading == "auto" and not options.law.smooth)
+    # a given matrix is that of cells even across, at rest as in motion and on "reduced"
+    free = options.shell is None or options.shell.any_grid
+    crowd = free and options.grading == "auto" and not options.law.smooth
+    graded = crowd or options.grading == "graded"
     turns, places = relief_marks(bore.relief, bore.radius, bore.width)
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     marks = (*turns, *around), (*places, *ends, *-ends)
