@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -15,7 +17,8 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.film_model import Film
-from loadflow.journal.models.composed_pads import narrowest_on_pads
+from loadflow.journal.models import _pad_loops, _shared_pad_kernels
+from loadflow.journal.models.composed_pads import make_pad_work, narrowest_on_pads
 
 BEARING = JournalBearing(1.4, 1.3, 1e-3, shape=TiltingPads(5, 1.05, preload=0.2, angle=0.628))
 SPEED, PERIOD = 1.2, 3.0
@@ -279,3 +282,23 @@ def test_a_load_passes_over_a_pad_that_alone_holds_the_shaft_alike_on_both_rungs
         grid["eccentricity"] / bearing.clearance,
         atol=0.01,
     )
+
+
+def test_a_shaft_in_two_films_keeps_the_pad_that_it_lies_near(monkeypatch):
+    """Where a step fails, flat pads lose their films, but not the one that carries the shaft."""
+    for name in ("spare_state", "lift_of", "put_on"):
+        monkeypatch.setattr(_pad_loops, name, getattr(_pad_loops, name).py_func)
+    monkeypatch.setattr(_shared_pad_kernels, "try_other_pads", _pad_loops.try_other_pads.py_func)
+    monkeypatch.setattr(_shared_pad_kernels, "set_out_side", lambda side, begun: None)
+    toward = np.array([[1.0, 0.0], [-1.0, 0.0]])
+    pads = SimpleNamespace(
+        toward=toward, along=toward[:, ::-1].copy(), widest=np.array([0.8, 0.8]),
+        cell=np.array([0, 0, 1, 1]), edge=0.0,
+    )  # fmt: skip
+    work = SimpleNamespace(**{name: np.ones((4, 3)) for name in ("u", "last", "before")})
+    pad_work = make_pad_work((4, 3), 2)
+    pad_work.on[:] = True
+    at = np.array([0.7, 0.0, 0.0, 0.0])  # 0.3 clearances before one pad, 1.7 before the other
+    side = SimpleNamespace(work=work, pads=pads, pad_work=pad_work, place=at, new=at)
+    assert _shared_pad_kernels.try_others(side, 1.0, False)
+    assert pad_work.on.tolist() == [True, False]
