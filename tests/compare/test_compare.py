@@ -963,7 +963,7 @@ def test_bearings_of_the_scene_that_are_the_sized_ones_are_compared_once(cube):
 
 def test_cylindrical_and_lobed_bores_are_followed_in_motion_and_others_at_rest(cube):
     names = ("journal-cylindrical", "journal-lemon", "journal-tilting-pads")
-    scene = scene_of(cube, candidates=dict.fromkeys(names, {}))
+    scene = scene_of(cube, candidates={name: {} for name in names})
     *moving, resting = (
         candidate_scene(scene, name, scene.candidates[name], 1000) for name in names
     )
