@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from loadflow.errors import InputError
+from loadflow.journal import Lobes
 from loadflow.numerics.fields import none_such
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.journal import Journal
@@ -17,8 +18,7 @@ ROLLING_SHARE = 0.05
 
 SHAPED_CLASSES = 5
 """Classes of speed, and of load, of which one sample is solved, the extremes first, in journal
-bearings that cannot be followed through the whole series in reasonable time: pads, lobes, elastic
-shells, tilted shafts."""
+bearings that take long to follow through a whole series: pads, elastic shells, tilted shafts."""
 
 
 def candidates_for(scene: Scene) -> tuple[dict[str, Candidate], list[str]]:
@@ -93,8 +93,8 @@ def _of_places(scene: Scene, places: list[str]) -> Tolerances:
 def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) -> Scene:
     """The scene of one candidate: its bearings, by the models that suit a comparison.
 
-    Journal bearings of cylindrical bores are followed in motion through the whole series on the
-    rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
+    Journal bearings of cylindrical and lobed bores are followed in motion through the whole series
+    on the rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
 
     Parameters
     ----------
@@ -160,7 +160,9 @@ def _modelled(journal: Journal) -> Journal:
     """A journal bearing in motion on `reduced`, where that rung knows it and none is named."""
     parts = (journal, *journal.own.values())
     simple = not journal.tilt and all(
-        not part.geometry.shape.segments and part.geometry.relief == () and part.shell is None
+        (not part.geometry.shape.segments or isinstance(part.geometry.shape, Lobes))
+        and part.geometry.relief == ()
+        and part.shell is None
         for part in parts
     )
     if not simple or {"motion", "rung"} & journal.changed:

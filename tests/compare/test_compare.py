@@ -961,14 +961,15 @@ def test_bearings_of_the_scene_that_are_the_sized_ones_are_compared_once(cube):
     assert not {"own-journal", "own-rolling"} & {*known, *without}
 
 
-def test_cylindrical_bores_are_followed_in_motion_and_others_at_rest(cube):
-    scene = scene_of(cube, candidates={"journal-cylindrical": {}, "journal-lemon": {}})
-    moving, resting = (
-        candidate_scene(scene, name, scene.candidates[name], 1000)
-        for name in ("journal-cylindrical", "journal-lemon")
+def test_cylindrical_and_lobed_bores_are_followed_in_motion_and_others_at_rest(cube):
+    names = ("journal-cylindrical", "journal-lemon", "journal-tilting-pads")
+    scene = scene_of(cube, candidates={name: {} for name in names})
+    *moving, resting = (
+        candidate_scene(scene, name, scene.candidates[name], 1000) for name in names
     )
-    assert (moving.journal.motion, moving.journal.rung) == ("transient", "reduced")
-    assert moving.journal.at("N2").in_motion
+    for one in moving:
+        assert (one.journal.motion, one.journal.rung) == ("transient", "reduced")
+        assert one.journal.at("N2").in_motion
     assert resting.journal.motion == "quasi-static"
     assert resting.reduction.classes is not None
 
