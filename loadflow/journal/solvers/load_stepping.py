@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
-_LEAST_LOAD = 1e-3  # share below which a step of the load is given up
+_LEAST_LOAD = 0.03  # share below which a step of the load is given up, and its path followed
 _FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
 _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
 _CLOSING = 1e-3  # gap, in clearances, that is left before steps in which it closes
@@ -165,38 +165,6 @@ def solve_by_stiffness(
         film.relax(share=share)
         film.place(state.u, state.position)
     return replace(state, converged=False, iterations=spent, residual=1.0 - share)
-
-
-def solve_elastic_in_steps(
-    film: DiscreteFilm,
-    force: Array,
-    position: Array,
-    tolerance: float,
-    effort: Effort,
-    free: slice | NDArray[np.int64] = EVERY,
-    rigid: Solution | None = None,
-) -> Solution:
-    """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
-
-    Where asperities touch, the second comes first: it takes a third of the time. Both end with the
-    `effort`. What came of Newton's method in a `rigid` shell is not sought again.
-    """
-    asked = film, force, position, tolerance, effort, free
-    by_shell: Solution | None = None
-    if film.contact is not None:
-        by_shell = solve_by_stiffness(*asked, rigid)
-        if by_shell.converged or effort.over:
-            return by_shell
-    by_load = solve_in_load_steps(*asked)
-    if by_load.converged or film.clearance_left(by_load.position) <= APART:
-        return by_load
-    if by_shell is None and not effort.over:
-        by_shell = solve_by_stiffness(*asked)
-        if by_shell.converged or by_shell.residual < by_load.residual:
-            return by_shell
-    film.relax()
-    film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
-    return by_load
 
 
 def solve_from_held(
