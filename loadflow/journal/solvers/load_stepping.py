@@ -99,7 +99,7 @@ def solve_in_load_steps(
                 break
             step *= 1.5 if state.iterations < _STEPS_EACH // 2 else 1.0
     film.place(state.u, state.position)
-    if done and film.clearance_left(state.position) > APART:  # what was lost says nothing
+    if done:  # a step that was lost says nothing
         film.place(u, place)
         state = replace(state, u=u, position=place)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
