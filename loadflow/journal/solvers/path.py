@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.solvers.effort import Effort
@@ -107,8 +108,8 @@ class _Path:
         target = self.film.target(position, whole)
         weights = self.film.weights(position, still, target, still)
         if self.film.elastic:
-            way = position, target
-            if self.film.step_share(u, linear.columns, weights, way, True) < 1.0:
+            ends = position, target
+            if self.film.step_share(u, linear.columns, weights, ends, True) < 1.0:
                 return target, math.inf
         change = self.film.correct(u, linear.columns, weights)
         way = math.hypot(*(target - position)) / self.narrow(target)
@@ -273,17 +274,20 @@ def solve_elastic_in_steps(
     """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
 
     Where asperities touch, the second comes first: it takes a third of the time. What steps of the
-    load do not reach is sought along its path. All end with the `effort`. What came of Newton's
-    method in a `rigid` shell is not sought again.
+    load do not reach is sought along its path, but in a shell that spreads what presses it: there
+    the narrowest gap goes from cell to cell, and with it the path to and fro. All end with the
+    `effort`. What came of Newton's method in a `rigid` shell is not sought again.
     """
     asked = film, force, position, tolerance, effort, free
+    spreads = isinstance(film, ElasticFilm) and film.compliance.spreads
+    has_path = film.speed != 0.0 and not spreads
     by_shell: Solution | None = None
     if film.contact is not None:
         by_shell = solve_by_stiffness(*asked, rigid)
         if by_shell.converged or effort.over:
             return by_shell
-    by_load = solve_in_load_steps(*asked)
-    if not (_ends(film, by_load) or effort.over) and film.speed != 0.0:
+    by_load = solve_in_load_steps(*asked, has_path)
+    if has_path and not (_ends(film, by_load) or effort.over):
         limits = tolerance, max_iterations
         by_load = solve_beyond_fold(film, force, position, *limits, effort, by_load, free)
     if _ends(film, by_load):
