@@ -83,6 +83,33 @@ def test_a_shaft_on_asperities_comes_up_to_its_speed_from_standing(monkeypatch):
         solve()
 
 
+def test_a_rubbing_shell_softens_from_the_rigid_bore_where_a_film_is_found_in_it():
+    """Number 1103: from standing, all that a search may take went without an answer."""
+    point, solve = drawn("composed", 1103)
+    answer = solve()
+    again = point.bearing.pressure(
+        answer.eccentricity, point.speed, Lubricant(point.viscosity), **point.film
+    )
+    assert again.force == pytest.approx(point.force, rel=1e-6, abs=1e-6 * point.load)
+
+
+def test_a_shell_that_is_held_rigid_waits_for_its_rupture_as_a_rigid_bore_does(monkeypatch):
+    """Number 833: a shaft that did not wait was not found in 50 steps."""
+    _, solve = drawn("composed", 833)
+    rigid = statics.in_rigid_bore
+
+    class Held(Exception):
+        pass
+
+    def held(*given: Any) -> None:
+        raise Held(rigid(*given))
+
+    monkeypatch.setattr(statics, "in_rigid_bore", held)
+    with pytest.raises(Held) as told:
+        solve()
+    assert told.value.args[0].converged
+
+
 def test_steps_that_leave_the_rest_of_their_effort_to_the_way_from_standing_say_so(monkeypatch):
     """More of it might have led somewhere, so that the refusal tells what allows more."""
     _, solve = drawn("composed", 186)
@@ -242,10 +269,13 @@ def test_a_film_too_hot_for_any_balance_says_so_after_few_temperatures(monkeypat
     assert len(asked) <= 8
 
 
-def test_a_free_groove_whose_iteration_diverges_ends_in_a_reason():
-    """Number 141 of any parts together: its first step leaves a film that is not finite."""
-    with pytest.raises(SolverError, match="touches the elastic shell"):
-        drawn("composed", 141)[1]()
+def test_a_shell_that_a_free_groove_presses_open_carries_beyond_a_fold():
+    """Number 141 of any parts together: steps of the load alone end where its shell is met."""
+    point, solve = drawn("composed", 141)
+    found = solve()
+    around, across = point.film["grid"]
+    point.film["grid"] = (2 * around, 2 * across)
+    assert float(found.minimum_film) == pytest.approx(float(solve().minimum_film), rel=0.01)
 
 
 def test_a_load_without_a_film_in_the_coldest_oil_says_why_after_few_temperatures(monkeypatch):

@@ -19,6 +19,7 @@ from loadflow.journal import (
     Lubricant,
     MassConserving,
     MatrixShell,
+    Pump,
     Reynolds,
     Sommerfeld,
     Supply,
@@ -239,6 +240,27 @@ def test_sharp_laws_are_solved_from_stiff_to_soft(law):
         assert state.residual < 1e-10
         ratios.append(float(state.eccentricity_ratio))
     assert ratios[0] < ratios[2] < ratios[3]
+
+
+def test_a_load_beyond_a_fold_is_followed_until_the_shell_is_met():
+    """Steps of the load end at 37 % of it, at a fold, on whatever cells: what is beyond?"""
+    bearing = JournalBearing(diameter=1.1156749, width=0.20208713, relative_clearance=2.8520222e-4)
+    places = ((2.520762, 0.8677676, 0.1091198), (4.615157, 0.8671467, 0.1583992))
+    places += ((6.709552, 1.2299, 0.1317779),)
+    grooves = tuple(Groove(angle, arc, length, 0.0) for angle, arc, length in places)
+    pump = Pump((0.0, 8.602927e-05), (516380.6, 258190.3))
+    with pytest.raises(SolverError, match="the shaft touches the elastic shell"):
+        bearing.equilibrium(
+            (44720.0, -75091.8),
+            6.4987097,
+            Lubricant(0.014516635),
+            cavitation=GasMixture(284.5017),
+            edge_pressure=3e5,
+            grid=(60, 20),
+            supply=Supply(grooves, pump),
+            tilt=(7.8719e-4, 3.427e-4),
+            shell=LocalShell(1.009907e-12),
+        )
 
 
 def test_an_orbit_under_a_slow_load_follows_the_equilibria():

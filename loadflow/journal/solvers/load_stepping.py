@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 
 _FIRST_LOAD = 0.2  # share of the load from which it is raised in steps
 _LEAST_LOAD = 1e-3  # share below which a step of the load is given up
+_LEAST_BEFORE_PATH = 0.03  # the same, where the path of the load is followed next
 _FIRST_SHARE = 1e-4  # of its compliance, that a shell has first where it is softened in steps
 _LEAST_SHARE = 0.01  # of the share that it has, below which such a step is given up
 _CLOSING = 1e-3  # gap, in clearances, that is left before steps in which it closes
@@ -74,13 +75,19 @@ def solve_in_load_steps(
     tolerance: float,
     effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
+    has_path: bool = False,
 ) -> Solution:
-    """As `solve_equilibrium`, from a light load on: for shells that the load itself must open."""
+    """As `solve_equilibrium`, from a light load on: for shells that the load itself must open.
+
+    What is not reached ends at the film found last if it `has_path` that goes on there, else where
+    the step after it was lost.
+    """
     film.relax()
     u, place, state = film.start(), position.copy(), no_film(film)
     done, step, spent, left, closed = 0.0, _FIRST_LOAD, 0, math.inf, 0
     most = film.newton_steps(_STEPS_EACH)
-    while step >= _LEAST_LOAD and spent < _STEPS * most and not effort.over:
+    least = _LEAST_BEFORE_PATH if has_path else _LEAST_LOAD
+    while step >= least and spent < _STEPS * most and not effort.over:
         share = min(1.0, done + step)
         if done == 0.0:
             place[free] = share * position[free]
@@ -98,10 +105,9 @@ def solve_in_load_steps(
             if closed >= _CLOSED:  # more load presses the shaft but farther into the shell's ends
                 break
             step *= 1.5 if state.iterations < _STEPS_EACH // 2 else 1.0
-    film.place(state.u, state.position)
-    if done and film.clearance_left(state.position) > APART:  # what was lost says nothing
-        film.place(u, place)
+    if done and has_path:
         state = replace(state, u=u, position=place)
+    film.place(state.u, state.position)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
     return replace(state, converged=False, iterations=spent, residual=missing)
 
@@ -165,38 +171,6 @@ def solve_by_stiffness(
         film.relax(share=share)
         film.place(state.u, state.position)
     return replace(state, converged=False, iterations=spent, residual=1.0 - share)
-
-
-def solve_elastic_in_steps(
-    film: DiscreteFilm,
-    force: Array,
-    position: Array,
-    tolerance: float,
-    effort: Effort,
-    free: slice | NDArray[np.int64] = EVERY,
-    rigid: Solution | None = None,
-) -> Solution:
-    """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
-
-    Where asperities touch, the second comes first: it takes a third of the time. Both end with the
-    `effort`. What came of Newton's method in a `rigid` shell is not sought again.
-    """
-    asked = film, force, position, tolerance, effort, free
-    by_shell: Solution | None = None
-    if film.contact is not None:
-        by_shell = solve_by_stiffness(*asked, rigid)
-        if by_shell.converged or effort.over:
-            return by_shell
-    by_load = solve_in_load_steps(*asked)
-    if by_load.converged or film.clearance_left(by_load.position) <= APART:
-        return by_load
-    if by_shell is None and not effort.over:
-        by_shell = solve_by_stiffness(*asked)
-        if by_shell.converged or by_shell.residual < by_load.residual:
-            return by_shell
-    film.relax()
-    film.place(by_load.u, by_load.position)  # show the gap that the load steps have left
-    return by_load
 
 
 def solve_from_held(

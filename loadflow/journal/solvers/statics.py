@@ -35,7 +35,6 @@ from loadflow.journal.solvers.load_stepping import (
     in_rigid_bore,
     solve_by_approach,
     solve_by_speed,
-    solve_elastic_in_steps,
     solve_from_held,
     stands,
 )
@@ -44,7 +43,7 @@ from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pad_search import search_on_pads
 from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads, with_further_pads
-from loadflow.journal.solvers.path import solve_beyond_fold
+from loadflow.journal.solvers.path import solve_beyond_fold, solve_elastic_in_steps
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -186,16 +185,18 @@ class Statics:
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
-            alone, free, soft = not gap.pads.size, self._free(pads), film.elastic
+            soft, free = film.elastic, self._free(pads)
+            alone = not gap.pads.size
             kept, turns, found, rigid = effort.kept, alone and stands(film), None, None
             if turns and soft:  # it is found in a rigid bore, or stands
                 rigid = in_rigid_bore(film, force, estimate, *limits, effort, free)
                 found = None if rigid.converged else self._from_standing(*given)
             effort.kept += _STANDING * (effort.left - kept) * (turns and not soft)
             solution = found or self._in_steps(force, estimate, pads, limits, effort, rigid)
-            if alone and self._has_path and not ended(film, solution, effort):
+            fixed = alone and not soft
+            if fixed and self._has_path and not ended(film, solution, effort):
                 solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
-            if alone and not (soft or ended(film, solution, effort)):
+            if fixed and not ended(film, solution, effort):
                 solution = self._by_other_loads(force, estimate, limits, effort) or solution
             cut, effort.kept = effort.over, kept
             if turns and not (soft or ended(film, solution, effort)):
@@ -298,8 +299,7 @@ class Statics:
     @property
     def _has_path(self) -> bool:
         """Whether equilibria can be followed along the path of the load."""
-        film = self.film
-        return film.speed != 0.0 and (film.elastic or not film.pockets.free.size)
+        return not (self.film.pockets.free.size or self.film.speed == 0.0)
 
     @property
     def _shaped(self) -> ShapedGap:
@@ -413,7 +413,7 @@ class Statics:
         film, free = self.film, self._free(pads)
         given = film, force, estimate, *limits, effort, free
         if film.elastic:
-            return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free, rigid)
+            return solve_elastic_in_steps(film, force, estimate, *limits, effort, free, rigid)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             return search_on_pads(film, self._shaped, force, estimate, shaft, pads, *limits, effort)
