@@ -253,12 +253,13 @@ def solve_beyond_fold(
         held = solve_film(film, *start, still, *limits)
         effort.take(film, held.iterations)
         if held.converged:
+            found = solve_along_path(film, force, held, *limits, effort, free)
+            film.place(found.u, found.position)
+            if _ends(film, found) or has_touched(film, found):
+                return found
             break
-    else:
-        return reached
-    found = solve_along_path(film, force, held, *limits, effort, free)
-    film.place(found.u, found.position)
-    return found if _ends(film, found) or has_touched(film, found) else reached
+    film.place(reached.u, reached.position)  # a shell is judged by the gap that it leaves there
+    return reached
 
 
 def solve_elastic_in_steps(
