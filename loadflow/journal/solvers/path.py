@@ -109,7 +109,7 @@ class _Path:
         weights = self.film.weights(position, still, target, still)
         if self.film.elastic:
             ends = position, target
-            if self.film.step_share(u, linear.columns, weights, ends, True) < 1.0:
+            if self.film.step_share(u, linear.columns, weights, ends, fills=False) < 1.0:
                 return target, math.inf
         change = self.film.correct(u, linear.columns, weights)
         way = math.hypot(*(target - position)) / self.narrow(target)
