@@ -258,7 +258,8 @@ def solve_beyond_fold(
             if _ends(film, found) or has_touched(film, found):
                 return found
             break
-    film.place(reached.u, reached.position)  # a shell is judged by the gap that it leaves there
+    if film.elastic:  # its shell is judged by the gap that it leaves there
+        film.place(reached.u, reached.position)
     return reached
 
 
