@@ -79,7 +79,8 @@ class LoadflowAccessor:
         -------
         xarray.DataArray
             Over ``case``, ``channel`` and ``statistic``, in the units of the coordinate ``units``
-            (skewness and kurtosis have none).
+            (skewness and kurtosis have none). What is no force or moment has NaN as its
+            damage-equivalent load.
         """
         return self._each(
             wanted,

@@ -1,5 +1,7 @@
 """Elastic shells: limits, closed forms, balance, and what is refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -10,6 +12,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Arc,
     ConstantFlow,
+    Film,
     GasMixture,
     Groove,
     Guembel,
@@ -27,6 +30,11 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.film.cylinder import bore_compliance
+from loadflow.journal.line import Line
+from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.path import solve_beyond_fold
+from loadflow.journal.solvers.statics import Statics
+from loadflow.numerics.convergence import Limits
 from loadflow.scene.journal import Journal
 from loadflow.stages.film_of_bearing import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
@@ -261,6 +269,21 @@ def test_a_load_beyond_a_fold_is_followed_until_the_shell_is_met():
             tilt=(7.8719e-4, 3.427e-4),
             shell=LocalShell(1.009907e-12),
         )
+
+
+def test_a_path_that_leads_nowhere_leaves_the_shell_as_the_load_steps_did():
+    """Whether the shaft has met it is judged by that gap, not by that of the path's last film."""
+    words, load, limits = FILM | {"shell": SOFT}, np.array(LOAD), (1e-10, 50)
+    statics = Statics(BEARING, Film(**words), Line.of(()), SPEED)
+    reached = statics.solve(0, load, SPEED, None, Limits(*limits))
+    film, place = statics.film, reached.position
+    film.place(reached.u, place)
+    before, effort = film.deformation.copy(), Effort(left=8e3)
+    missed = replace(reached, converged=False)
+    back = solve_beyond_fold(film, 40.0 * load, place, *limits, effort, missed)
+    assert back is missed
+    assert effort.spent > 5  # the path went on from there
+    np.testing.assert_array_equal(film.deformation, before)
 
 
 def test_an_orbit_under_a_slow_load_follows_the_equilibria():

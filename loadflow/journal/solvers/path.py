@@ -109,7 +109,7 @@ class _Path:
         weights = self.film.weights(position, still, target, still)
         if self.film.elastic:
             ends = position, target
-            if self.film.step_share(u, linear.columns, weights, ends, True) < 1.0:
+            if self.film.step_share(u, linear.columns, weights, ends, fills=False) < 1.0:
                 return target, math.inf
         change = self.film.correct(u, linear.columns, weights)
         way = math.hypot(*(target - position)) / self.narrow(target)
@@ -253,12 +253,14 @@ def solve_beyond_fold(
         held = solve_film(film, *start, still, *limits)
         effort.take(film, held.iterations)
         if held.converged:
+            found = solve_along_path(film, force, held, *limits, effort, free)
+            film.place(found.u, found.position)
+            if _ends(film, found) or has_touched(film, found):
+                return found
             break
-    else:
-        return reached
-    found = solve_along_path(film, force, held, *limits, effort, free)
-    film.place(found.u, found.position)
-    return found if _ends(film, found) or has_touched(film, found) else reached
+    if film.elastic:  # its shell is judged by the gap that it leaves there
+        film.place(reached.u, reached.position)
+    return reached
 
 
 def solve_elastic_in_steps(

@@ -186,14 +186,13 @@ class Statics:
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
             soft, free = film.elastic, self._free(pads)
-            alone = not gap.pads.size
-            kept, turns, found, rigid = effort.kept, alone and stands(film), None, None
+            kept, turns, found, rigid = effort.kept, stands(film), None, None
             if turns and soft:  # it is found in a rigid bore, or stands
                 rigid = in_rigid_bore(film, force, estimate, *limits, effort, free)
                 found = None if rigid.converged else self._from_standing(*given)
             effort.kept += _STANDING * (effort.left - kept) * (turns and not soft)
             solution = found or self._in_steps(force, estimate, pads, limits, effort, rigid)
-            fixed = alone and not soft
+            fixed = not (soft or gap.pads.size)
             if fixed and self._has_path and not ended(film, solution, effort):
                 solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
             if fixed and not ended(film, solution, effort):
