@@ -82,9 +82,11 @@ class Film:
         Default (60, 20) for the gas mixture, (120, 40) else.
     grading : {"auto", "uniform", "graded"}
         Uniform cells, or cells that crowd at the narrowest gap and the bearing ends. "auto":
-        uniform for the gas mixture, with a supply and with a `MatrixShell`, graded else. Where a
-        few uniform cells span the narrowest gap, under a heavy load or at a given position, the
-        film is then solved on a graded mesh, but with such a shell.
+        uniform for the gas mixture and with a `MatrixShell`, graded else. With a supply, in any
+        bore but a cylinder, with tilt or a shell cells crowd at the ends alone, and where grooves
+        or reliefs end within the width they are even between these. Where a few uniform cells span
+        the narrowest gap, under a heavy load or at a given position, the film is then solved on a
+        graded mesh, but with a supply or such a shell.
     shell : LocalShell, LinedShell, ThickShell, MatrixShell, HousedShell or InfluenceShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
     heat : Heat, FilmHeat or PadHeat, optional
@@ -160,6 +162,11 @@ class Film:
             assert self.heat is not None
             return self.heat.lubricant(self.heat.inlet_temperature)
         return self.lubricant
+
+    @property
+    def crowds(self) -> bool:
+        """Whether cells crowd at the narrowest gap and at the ends, where their places are free."""
+        return self.grading == "graded" or (self.grading == "auto" and not self.law.smooth)
 
     @property
     def may_grade(self) -> bool:

@@ -196,6 +196,21 @@ def test_a_groove_that_reaches_the_rim_is_closed_there():
     assert abs(flows[2] / flows[1] - 1) < 0.12  # an open end would double with every refinement
 
 
+@pytest.mark.parametrize("tilt", [(0.0, 0.0), (1e-4, 1.5e-4)], ids=["aligned", "tilted"])
+def test_cells_crowd_at_the_ends_of_a_bearing_fed_over_its_whole_width(tilt):
+    """A film of sharp law is then three times nearer to one of many cells; aligned as tilted."""
+    groove = Supply([Groove(np.pi, arc=0.4, pressure=1.5e5)])
+
+    def least(grid, grading="auto"):
+        film = options(groove, Reynolds(), grid=grid, grading=grading)
+        return BEARING.equilibrium((9e4, 2e4), 30.0, tilt=tilt, **film).minimum_film
+
+    fine = least((240, 60))
+    even, own = (abs(least((120, 24), cells) / fine - 1.0) for cells in ("uniform", "auto"))
+    assert own < even / 3.0
+    assert even > 1e-3
+
+
 def test_two_pockets_off_mid_plane_are_one_fed_pair():
     pair = Supply([Groove(0.0, arc=0.5, length=0.04, axial=0.05, pressure=1e6)])
     field = BEARING.pressure((0.0, 0.0), 0.0, **options(pair, grid=(48, 20)))

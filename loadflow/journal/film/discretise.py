@@ -69,13 +69,11 @@ def cylindrical_film(
 
     `grooves` are pressures (Pa) of a bore of which these are but the units: oil may enter there.
     """
-    law, supply, contact = options.law, options.supply, options.contact
+    supply, contact = options.supply, options.contact
     options.check_oil(*grooves)
     inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
-    graded = options.grading == "graded"
-    if options.grading == "auto":
-        graded = not law.smooth and supply is None
+    graded = options.crowds
     radius, ratio, around = 0.5 * diameter, width / diameter, options.cells[0]
     clearance = relative_clearance * radius
     mesh = build_mesh(ratio, options.cells, graded, inlet, supply, radius)
@@ -97,8 +95,7 @@ def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedM
     bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
     # a given matrix is that of cells even across, at rest as in motion and on "reduced"
     free = options.shell is None or options.shell.any_grid
-    crowd = free and options.grading == "auto" and not options.law.smooth
-    graded = crowd or options.grading == "graded"
+    graded = options.crowds and (free or options.grading == "graded")
     turns, places = relief_marks(bore.relief, bore.radius, bore.width)
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     marks = (*turns, *around), (*places, *ends, *-ends)
