@@ -162,6 +162,19 @@ def test_an_error_that_was_not_measured_is_said_and_does_not_force_the_dearest_m
     assert "by the errors that are known" in unknown.reasons["loads"]
 
 
+def test_what_one_model_does_not_tell_leaves_what_is_asked_of_the_others():
+    """Of the one result of a scene, whose cells were not measured: its loads are accurate."""
+    plan = make_plan(scene_of(journal={"grid": [16, 8]}, results=["journal.film"]))
+    assert set(plan.errors["journal.film"].values()) == {None}
+    kept = {effect.name for effect in plan.effects if effect.kept}
+    assert {"dynamic inflow", "motion of the film"} < kept
+    assert measured(plan.scene, "wind")["errors"]["radial force max"]["max"] < 0.05
+    first, second = plan.shortfalls
+    assert "16x8 was not measured" in first
+    assert "off, by what is known, in minimum film by up to" in second
+    assert "tilt of the shaft left out" in second
+
+
 def test_of_models_without_measured_errors_as_few_as_can_be_are_taken():
     """Mann's turbulence is not measured, whatever its grid; everything else still is."""
     plan = make_plan(scene_of(accuracy=0.3, loads={"spectrum": "mann"}, results=["journal.film"]))
@@ -252,8 +265,8 @@ def test_a_run_reports_how_far_better_models_move_it(cube, tmp_path):
     worst = check["difference"].values[check["result"].values == "journal.film"].max()
     assert percent(worst) in said
     assert "asked for 0.01 %" in said
-    assert "what would help: a table journal.heat" in said  # of friction the most
-    assert 'journal.motion = "transient"' in said
+    assert "what would help: leave journal.heat to the plan" in said  # of friction the most
+    assert "leave journal.motion to the plan" in said
     assert not any("is off by" in warning for warning in run.warnings)
     manifest = json.loads((run.path / "manifest.json").read_text(encoding="utf-8"))
     assert manifest["accurate"] is False

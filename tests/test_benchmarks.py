@@ -1,5 +1,6 @@
 """Benchmarks can be started, share one way of measuring, and are named where they are."""
 
+import copy
 import re
 from importlib import import_module
 from pathlib import Path
@@ -7,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from benchmarks import common
-from benchmarks.ladder import physics
+from benchmarks.ladder import physics, physics_scenes, physics_sizes
 from benchmarks.references import ball_inertia
 
 ROOT = common.ROOT
@@ -83,11 +84,48 @@ def test_a_part_of_the_page_of_physics_that_was_killed_goes_on_where_it_was(tmp_
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(physics, "BEGUN", tmp_path)
+    monkeypatch.setattr(physics, "rests_on", lambda part, found: part)
     monkeypatch.setitem(physics.PARTS, "toy", part)
     with pytest.raises(KeyboardInterrupt):
         physics.measured("toy")
-    assert physics.measured("toy") == [{"k": 0}, {"k": 1}, {"k": 2}]
+    assert physics.measured("toy") == [{"k": k, physics.RESTS_ON: "toy"} for k in range(3)]
     assert asked == [0, 1, 2]
+
+
+def test_no_size_of_an_effect_is_older_than_the_machine_that_it_was_measured_on():
+    assert physics.outdated(physics.kept_so_far()) == []
+
+
+def test_a_machine_or_a_turbine_that_changed_since_it_was_measured_is_told(monkeypatch):
+    places = [{"turbine": turbine, "speed": 6.0} for turbine in ("nrel-5mw", "iea-15mw")]
+
+    def kept():
+        parts = ("elements", "clearances")
+        return {
+            part: [one | {physics.RESTS_ON: physics.rests_on(part, one)} for one in places]
+            for part in parts
+        }
+
+    before = kept()
+    assert physics.outdated(before) == []
+    known = physics_sizes.machine
+
+    def wider(turbine):
+        found = copy.deepcopy(known(turbine))
+        if turbine == "iea-15mw":
+            found["candidates"]["journal-cylindrical"]["N"]["geometry"]["width"] *= 1.01
+        return found
+
+    with monkeypatch.context() as there:
+        there.setattr(physics_sizes, "machine", wider)
+        assert physics.outdated(before) == ["clearances, iea-15mw, 6.0"]
+    with monkeypatch.context() as there:
+        there.setattr(physics_scenes, "_turbine", lambda name: name.startswith("iea"))
+        assert len(physics.outdated(before)) == 4
+    assert physics.outdated({"elements": places}) == [  # of nothing that is known
+        "elements, nrel-5mw, 6.0",
+        "elements, iea-15mw, 6.0",
+    ]
 
 
 def test_the_page_of_physics_has_the_numbers_that_are_kept_beside_it():

@@ -32,8 +32,10 @@ from loadflow.stages.effects.clearances import (
     slopes,
     usual_slope,
 )
+from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.film_tilt import TILT
+from loadflow.stages.effects.joint_motion import TOGETHER
 from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
@@ -431,3 +433,29 @@ def test_a_bearing_that_aligns_itself_takes_no_moment_and_is_never_out_of_line()
         scene_of(moments, self_aligning=True)
     with pytest.raises(InputError, match="it is self_aligning, and never out of line"):
         scene_of(self_aligning=True, alignment=[1e-4, 0.0])
+
+
+def test_films_that_move_around_a_shaft_tilted_as_at_rest_are_told_and_counted():
+    """On the rung "grid" shaft and films are not followed together, whatever supports state."""
+    moves = {"motion": "transient", "heat": None}
+    held, apart, still = (
+        make_plan(scene_of(FLOATS, **film))
+        for film in (moves, moves | {"grid": [60, 20], "rung": "grid"}, {"motion": "quasi-static"})
+    )
+    assert TOGETHER.is_on(held.scene)
+    assert not any(TOGETHER.name in said for said in held.shortfalls)
+    assert TOGETHER.is_on(still.scene)  # at rest nothing holds it back
+    assert not TOGETHER.is_on(apart.scene)
+    at = situation(apart.scene, apart.cases)
+    size = TOGETHER.indicator(at)["minimum film"]
+    assert 0.1 < size <= MOTION.indicator(at)["minimum film"]
+    assert apart.errors["journal.film"]["minimum film"] > size
+    assert TOGETHER.out == apart.left_out[TOGETHER.name]
+    (said,) = apart.shortfalls
+    assert "motion of the shaft in its films left out; what would help: journal.rung" in said
+
+
+def test_a_shaft_on_rigid_bearings_or_in_one_film_has_no_films_that_hold_it_back():
+    assert not TOGETHER.concerns(scene_of())
+    assert not TOGETHER.concerns(scene_of(FLOATS, self_aligning=True))
+    assert TOGETHER.concerns(scene_of(FLOATS))

@@ -180,3 +180,26 @@ def test_a_run_needs_neither_fcntl_nor_resource(tmp_path):
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     assert (tmp_path / "away" / "result.h5").exists()
+
+
+@pytest.mark.parametrize(
+    ("typed", "told"),
+    [
+        ("loadflow ru", {"run"}),
+        ("loadflow list be", {"bearings"}),
+        ("loadflow init quick", {"quick_look"}),
+        ("loadflow validate frictio", {"friction", "friction_rig"}),
+        ("loadflow loads --turbine n", {"nrel-5mw"}),
+        ("loadflow compare x.toml --candidate journal-l", {"journal-lemon"}),
+        ("loadflow journal --oil mineral", {"mineral-vg-320"}),
+    ],
+)
+def test_a_shell_completes_names(typed, told, monkeypatch, capsys):
+    words = typed.split()
+    monkeypatch.setattr("sys.argv", ["loadflow"])
+    monkeypatch.setenv("_LOADFLOW_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", typed)
+    monkeypatch.setenv("COMP_CWORD", str(len(words) - 1))
+    with pytest.raises(SystemExit):
+        app(prog_name="loadflow")
+    assert set(capsys.readouterr().out.split()) == told

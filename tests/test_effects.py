@@ -82,7 +82,8 @@ def check_toy_effect(cube, monkeypatch):
     named = make_plan(scene_of(cube, reduction={"seed": 0}, **wanted))
     assert not effect_in(named, "odd seed").kept
     assert named.errors["reduction.histogram"]["largest load"] == pytest.approx(0.2, abs=0.02)
-    assert "odd seed left out; what would help: an odd seed" in named.shortfalls[0]
+    helps = "what would help: leave reduction.seed to the plan"
+    assert f"odd seed left out; {helps}" in named.shortfalls[0]
 
     def answers(scene, case, inputs):
         return {("N", "largest load"): 1.0 if TOY.is_on(scene) else 0.99}
@@ -259,7 +260,7 @@ def test_indicators_grow_with_what_they_stand_for():
 
 
 def test_the_shell_indicator_has_the_size_of_the_solved_films():
-    """docs/journal.md: 1e-10 m/Pa takes 8 % of the film and 7 % of the pressure."""
+    """docs/journal-shell.md: 1e-10 m/Pa takes 8 % of the film and 7 % of the pressure."""
     scene = make_scene(
         {
             "name": "s",

@@ -241,10 +241,11 @@ def test_stored_errors_of_friction_still_hold():
     assert within(errors.summary()["friction power"], stored["friction power"]), errors.summary()
 
 
-def test_the_page_shows_what_is_stored():
-    from benchmarks.ladder.__main__ import DOC, page
+def test_the_pages_show_what_is_stored():
+    from benchmarks.ladder.__main__ import BY_QUANTITY, DOC, by_quantity, page
 
     assert DOC.read_text(encoding="utf-8") == page(ladder(), gains())
+    assert BY_QUANTITY.read_text(encoding="utf-8") == by_quantity(ladder())
 
 
 def test_errors_of_the_ladder_are_percentages_without_a_power_of_ten():

@@ -18,7 +18,7 @@ import loadflow as lf
 from loadflow.cube import open_cube
 from loadflow.errors import InputError, ValidityWarning
 from loadflow.planning.plan import make_plan
-from loadflow.running.earlier import _changed
+from loadflow.running.earlier import _as_written, _changed
 from loadflow.running.runner import run_on
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
@@ -297,3 +297,10 @@ def test_nan_in_a_series_is_named_before_anything_runs(tmp_path):
     broken.to_netcdf(path, engine="h5netcdf")
     with pytest.raises(InputError, match=r"loads\.h5.*dlc1\.1_v8_s2.*speed.*7"):
         lf.run(scene_of(path), out=tmp_path / "runs")
+
+
+def test_keys_that_differ_are_named_as_a_scene_writes_them():
+    stated = {"bearings": ["journal-lemon", "tapered-pair"], "loads": {"seeds": 1}}
+    keys = ["journal.geometry.diameter", "rolling.geometry.rollers", "loads.seeds"]
+    written = ["bearings.N.geometry.diameter", "bearings.M.geometry.rollers", "loads.seeds"]
+    assert _as_written(make_scene({"name": "own", **stated}), keys) == written

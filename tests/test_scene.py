@@ -122,3 +122,32 @@ def test_a_bearing_without_a_rating_is_refused_before_its_loads_are_simulated():
         scene(angle, "rolling.life").rolling.geometry.rated_capacity for angle in (0.785, np.pi / 4)
     )
     assert rounded == pytest.approx(whole, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("accuracy", "told"),
+    [
+        (0, "accuracy = 0: must be greater than 0"),
+        ("high", "accuracy = 'high': must be a valid number or a table or 'given'"),
+        ({"journal.film": -1}, "accuracy.journal.film = -1: must be greater than 0"),
+    ],
+)
+def test_a_key_that_may_have_several_types_is_told_by_the_one_that_stands_there(accuracy, told):
+    with pytest.raises(InputError) as refused:
+        make_scene({"name": "own", "accuracy": accuracy})
+    assert str(refused.value).endswith(told)
+    assert "\n" not in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("stated", "told"),
+    [
+        ({"loads": {"dlc": 1.1}}, "loads.dlc = 1.1: must be a text in quotes or a valid list"),
+        ({"journal": {"shell": "thick"}}, "journal.shell = 'thick': must be a table"),
+    ],
+)
+def test_a_key_of_several_types_is_told_in_one_line_without_their_names(stated, told):
+    with pytest.raises(InputError) as refused:
+        make_scene({"name": "own"} | stated)
+    assert told in str(refused.value)
+    assert str(refused.value).count("\n") == 0

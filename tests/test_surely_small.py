@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from benchmarks.ladder.physics import ten_scenes
+from benchmarks.ladder.physics_scenes import ten_scenes
 from loadflow.planning.accuracy import surely_small
 from loadflow.planning.effects import EffectVerdict, estimates
 from loadflow.planning.pilot import pilot

@@ -1,9 +1,10 @@
-"""Speed and error of every model rung: writes docs/speed-vs-error.md and ladder.json, gains.json.
+"""Speed and error of every model rung: writes two pages of docs and ladder.json, gains.json.
 
-python -m benchmarks.ladder [--quick] [--only STAGE …]
+python -m benchmarks.ladder [--quick] [--only STAGE …] [--pages]
 
 One run on one core, over wind speeds from cut-in to cut-out. Seconds depend on the machine; their
-ratios and the errors do not. ``--quick`` takes fewer and shorter cases and writes nothing.
+ratios and the errors do not. ``--quick`` takes fewer and shorter cases and writes nothing,
+``--pages`` measures nothing and writes the pages from the numbers that are there.
 """
 
 from __future__ import annotations
@@ -34,6 +35,7 @@ from benchmarks.ladder.wind import measure_wind
 LADDER = ROOT / "loadflow" / "data" / "ladder.json"
 GAINS = LADDER.with_name("gains.json")
 DOC = ROOT / "docs" / "speed-vs-error.md"
+BY_QUANTITY = DOC.with_name("errors-by-quantity.md")
 WHOLE_RUNS = "<!-- whole runs -->", "<!-- end of whole runs -->"
 
 STAGES: dict[str, Callable[[Bench], Rungs]] = {
@@ -65,19 +67,29 @@ HEAD = """# Speed against error
 
 What each model costs, and how far it is from the finest one that is there. `loadflow plan SCENE`
 reads the same numbers; what leaving physics out costs beside them, and how models are chosen, says
-[accuracy.md](accuracy.md). All of this page is written by `python -m benchmarks.ladder`.
+[accuracy.md](accuracy.md). Start with [whole runs](#whole-runs): what a run gains by better models.
+Then comes each stage by itself, in the order of a run. Every quantity with its worst case stands
+in [errors by quantity](errors-by-quantity.md). Both pages are written by
+`python -m benchmarks.ladder`.
 
 **Relative time** is against the most expensive rung of the stage, measured in the same run; the
 seconds hold for one core of one busy machine and are only rough. **Errors** are relative deviations
-from the stated reference: the largest of all cases, the 95 % quantile, and the worst case; of a
-stiffness, the norm of the difference of the matrices over that of the reference; of a slip,
-absolute. They say what a coarser model changes, not how well the finest one fits a real turbine. A
-rung is **dominated** if another one is cheaper and nowhere less accurate.
+from the stated reference, the largest of all cases. They say what a coarser model changes, not how
+well the finest one fits a real turbine. A rung is **dominated** if another one is cheaper and
+nowhere less accurate.
 
 Beside another code, ROSS 3.1, whose film is compiled, a static point with stiffness and damping
 takes 1/8 … 1/25 of its time at its coarser meshes and 1/116 … 1/165 at its default (in three of
 four bearings), with no larger error of ε, K and C; on tilting pads 1/89 at its coarsest
-([table](journal.md), `python -m benchmarks.peers.ross`).
+([table](journal-numerics.md#beside-ross), `python -m benchmarks.peers.ross`).
+"""
+
+QUANTITIES_HEAD = """# Errors by quantity
+
+The errors of [speed against error](speed-vs-error.md), quantity by quantity: the largest of all
+cases, the 95 % quantile, and the worst case. Of a stiffness it is the norm of the difference of the
+matrices over that of the reference; of a slip it is absolute. Written by `python -m
+benchmarks.ladder`.
 """
 
 RELATIVE = {"reduction": "film solutions, relative"}
@@ -93,7 +105,7 @@ its largest over the cases above. `loadflow plan` adds up load, reduction and be
 
 
 def page(ladder: dict[str, Rungs], gains: dict[str, dict[str, float]]) -> str:
-    """The whole document."""
+    """The page of rungs, with whole runs and gains."""
     sections = [line for name in ladder for line in _section(name, ladder[name])]
     rows = [
         f"| {room} | {answer} | {gain:.2g} |"
@@ -116,9 +128,29 @@ def _section(stage: str, rungs: Rungs) -> Iterator[str]:
         )
     measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
     if measured:
-        yield from _errors(measured)
+        yield from _reference(measured)
     if len(measured) > 1 and stage not in KINDS:
         yield f"\n![error over time of the rungs of the stage {stage}]({_figure(stage)})"
+    yield ""
+
+
+def by_quantity(ladder: dict[str, Rungs]) -> str:
+    """The page of every quantity of every rung."""
+    sections = [line for name in ladder for line in _quantities(name, ladder[name])]
+    return "\n".join([QUANTITIES_HEAD, *sections])
+
+
+def _quantities(stage: str, rungs: Rungs) -> Iterator[str]:
+    measured = {name: entry for name, entry in rungs.items() if entry["errors"]}
+    if not measured:
+        return
+    yield f"## {stage}\n"
+    yield "| rung | quantity | largest error | 95 % below | worst case |"
+    yield "|---|---|---:|---:|---|"
+    for name, entry in measured.items():
+        for quantity, error in entry["errors"].items():
+            largest, most = percent(error["max"]), percent(error["p95"])
+            yield f"| {name} | {quantity} | {largest} | {most} | {error['worst']} |"
     yield ""
 
 
@@ -143,7 +175,7 @@ def _mark(entry: Entry) -> str:
     return f" (dominated by {entry['dominated_by']})" if "dominated_by" in entry else ""
 
 
-def _errors(rungs: Rungs) -> Iterator[str]:
+def _reference(rungs: Rungs) -> Iterator[str]:
     first = next(iter(rungs.values()))
     yield f"\nReference: {first['reference']}.\n"
     others: dict[str, list[str]] = {}
@@ -152,21 +184,20 @@ def _errors(rungs: Rungs) -> Iterator[str]:
             others.setdefault(entry["reference"], []).append(name)
     for reference, names in others.items():
         yield f"Reference of {' and '.join(names)}: {reference}.\n"
-    yield f"Cases: {first['cases']}.\n"
-    yield "| rung | quantity | largest error | 95 % below | worst case |"
-    yield "|---|---|---:|---:|---|"
-    for name, entry in rungs.items():
-        for quantity, error in (entry["errors"] or {}).items():
-            largest, most = percent(error["max"]), percent(error["p95"])
-            yield f"| {name} | {quantity} | {largest} | {most} | {error['worst']} |"
+    yield f"Cases: {first['cases']}."
 
 
 def main() -> None:
     parser = arguments(__doc__)
     parser.add_argument("--quick", action="store_true", help="a few short cases; writes nothing")
     only = "stages to measure; the others stay as they are"
+    pages = "write the pages from the numbers that are there"
+    parser.add_argument("--pages", action="store_true", help=pages)
     parser.add_argument("--only", nargs="+", choices=STAGES, default=list(STAGES), help=only)
     chosen = parser.parse_args()
+    if chosen.pages:
+        _write_pages(_read(LADDER), _read(GAINS))
+        return
     bench = Bench(QUICK if chosen.quick else Setting())
     measured = {}
     for name in chosen.only:
@@ -184,7 +215,12 @@ def main() -> None:
     _write(LADDER, ordered)
     _write(GAINS, gains)
     _draw(ordered)
-    DOC.write_text(page(ordered, gains), encoding="utf-8")
+    _write_pages(ordered, gains)
+
+
+def _write_pages(ladder: dict[str, Rungs], gains: dict[str, dict[str, float]]) -> None:
+    DOC.write_text(page(ladder, gains), encoding="utf-8")
+    BY_QUANTITY.write_text(by_quantity(ladder), encoding="utf-8")
 
 
 def _read(path: Path) -> dict[str, Any]:

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from benchmarks.common import arguments, head, put, row
-from benchmarks.ladder import physics_sizes as parts
-from benchmarks.ladder.physics import PAGE, jobs_asked, kept_so_far, ten_scenes
+from benchmarks.ladder.physics import PAGE, kept_so_far
+from benchmarks.ladder.physics_scenes import PER_PLACE, jobs_asked, seated, ten_scenes
 from loadflow.planning.effects import estimates
 from loadflow.planning.plan import needed_stages
 from loadflow.scene.cases import list_cases
@@ -35,16 +35,6 @@ LEAST = 1e-3
 MOST = "the one that moves most"
 RESULTS_APART = ("rolling",)
 """Models whose answers belong to results of their own, each with an accuracy of its own."""
-
-PER_PLACE = {
-    "sizes": parts.at_work,
-    "elements": parts.on_rollers,
-    "films": parts.touching,
-    "oil": parts.grooved,
-    "clearances": parts.in_clearances,
-    "lateral": parts.realised,
-}
-"""Scene of a part of the measurements, of a turbine and a wind speed."""
 
 MARKS = "<!-- indicators -->", "<!-- end of indicators -->"
 
@@ -95,10 +85,10 @@ def pairs(kept: dict[str, Any]) -> Iterator[Pair]:
             place = f"{part}, {one['turbine']}, {one['speed']:g} m/s"
             yield from _beside(place, scene_at(one["turbine"], one["speed"]), one["sizes"])
     for one in kept.get("fed_back", []):
+        scenes = seated(one["turbine"], one["speed"])
         for seat, sizes in one["sizes"].items():
-            scene = parts.on_seat(one["turbine"], one["speed"], parts.SEATS[seat])
             load = {name: size for name, size in sizes.items() if name == "bearing load max"}
-            yield from _beside(f"{seat}, {one['turbine']}", scene, {STIFFNESS.name: load})
+            yield from _beside(f"{seat}, {one['turbine']}", scenes[seat], {STIFFNESS.name: load})
     scenes = ten_scenes() | jobs_asked()
     for one in [*kept.get("scenes", []), *kept.get("jobs", [])]:
         found = {effect["name"]: effect["size"] or {} for effect in one["effects"]}

@@ -8,14 +8,14 @@ it keeps, ``runs`` makes whole runs of the main job from the coarsest models to 
 and holds their answers against the last. What is measured is kept beside the page in
 ``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
 written anew from there: ``python -m benchmarks.ladder.physics [PART …]``. A part that was killed
-goes on where it was: what it has found waits in ``runs/physics``.
+goes on where it was: what it has found waits in ``runs/physics``. Beside each finding stands the
+state of what it was measured on, so that a test tells which are outdated.
 """
 
 from __future__ import annotations
 
 import json
 import time
-import tomllib
 from collections.abc import Callable
 from typing import Any
 
@@ -28,65 +28,17 @@ from benchmarks.ladder.physics_page import (
     scene_table,
     size_table,
 )
-from benchmarks.ladder.physics_sizes import (
-    BESIDE,
-    SHORT,
-    STOP,
-    THOROUGH,
-    TURBINES,
-    Found,
-    joined,
-    scene_of,
-    sizes,
-)
+from benchmarks.ladder.physics_scenes import jobs_asked, rests_on, ten_scenes
+from benchmarks.ladder.physics_sizes import BESIDE, THOROUGH, Found, joined, sizes
 from benchmarks.ladder.whole_runs import runs
 from loadflow.planning.pilot import pilot
 from loadflow.planning.plan import make_plan
-from loadflow.scene.scene import Scene, read_scene
+from loadflow.scene.scene import Scene
 
 KEPT = ROOT / "docs" / "figures" / "physics.json"
 PAGE = ROOT / "docs" / "physics.md"
 BEGUN = ROOT / "runs" / "physics"
 """What parts have found that are not finished."""
-
-
-def ten_scenes() -> dict[str, Scene]:
-    """Power production, start, stop, parked; small and large turbine; stiff and soft housing.
-
-    Shells align themselves, as those of the main job and the sized ones are built to. In shells
-    that stay, wide bearings near each other would touch at their ends.
-    """
-    production = {"wind_speeds": [12.0]} | SHORT
-    small, usual, large = TURBINES
-    built = {"self_aligning": True}
-    running = {"loads": production, "film": built}
-    still = {"results": ["loads.statistics", "rolling.loads"], "film": built}
-    parked = {"dlc": "6.1"} | SHORT
-    stop = tomllib.loads(STOP.read_text(encoding="utf-8"))["bearings"]["N"]
-    touching = {key: stop[key] for key in ("contact", "shell")}
-    events = {"results": ["journal.film"], "film": built | touching}
-    soft = built | {"shell": {"kind": "local", "compliance": 1e-11}}
-    return {
-        "power production, 1.5 MW": scene_of(small, **running),
-        "power production, 5 MW": scene_of(usual, **running),
-        "power production, 15 MW": scene_of(large, **running),
-        "20 % asked for, 5 MW": scene_of(usual, accuracy=0.2, **running),
-        "stiff housing, sized bearings, 5 MW": scene_of(usual, sized=True, **running),
-        "soft housing (10 µm/MPa), 5 MW": scene_of(usual, loads=production, film=soft),
-        "start, 5 MW": scene_of(usual, loads={"dlc": "3.1", "wind_speeds": [4.0]}, **events),
-        "stop, 5 MW": scene_of(usual, loads={"dlc": "4.1", "wind_speeds": [24.0]}, **events),
-        "parked, 5 MW": scene_of(usual, loads=parked, **still),
-        "parked, 15 MW": scene_of(large, loads=parked, **still),
-    }
-
-
-JOBS = ("quick_look", "dlc_1_1", "dlc_3_1_startup", "dlc_4_2_shutdown", "dlc_6_4_idling")
-"""Pipelines whose pilots are measured beside the ten scenes, with all their effects."""
-
-
-def jobs_asked() -> dict[str, Scene]:
-    """The pipelines of `JOBS`, as they are."""
-    return {name: read_scene(ROOT / "pipelines" / f"{name}.toml") for name in JOBS}
 
 
 def scenes(known: Found) -> Found:
@@ -151,8 +103,23 @@ cases; thinnest film of the collar and of N and N2; largest ε of both; mean fri
 of a roller; life of M. All have the same winds, on 11 × 144 points as the plan of the main job
 takes them, as a seed on another grid is another wind: what a finer grid changes is a row of
 [physics.md](physics.md). What seeds scatter comes on top, the more the fewer there are. The machine
-had six times as much to do as it has cores, and took half as long again as README says; ratios
-count. Written by `python -m benchmarks.ladder.physics runs`."""
+had five times as much to do as it has cores; ratios count. Written by
+`python -m benchmarks.ladder.physics runs`."""
+
+
+RESTS_ON = "rests_on"
+"""Key of what is kept, under which stands the state of the scenes that it was measured on."""
+
+
+def outdated(kept: dict[str, Any]) -> list[str]:
+    """What is kept of scenes, machines or turbines that have changed since it was measured."""
+    names = ("turbine", "speed", "scene", "run")
+    return [
+        ", ".join([part, *(str(one[name]) for name in names if name in one)])
+        for part, found in kept.items()
+        for one in found
+        if one.get(RESTS_ON) != rests_on(part, one)
+    ]
 
 
 def measured(part: str) -> list[dict[str, Any]]:
@@ -162,7 +129,7 @@ def measured(part: str) -> list[dict[str, Any]]:
     found = json.loads(begun.read_text(encoding="utf-8")) if begun.exists() else []
     begun.write_text(json.dumps(found), encoding="utf-8")
     for one in PARTS[part](tuple(found)):
-        found.append(one)
+        found.append(one | {RESTS_ON: rests_on(part, one)})
         begun.write_text(json.dumps(found, indent=1), encoding="utf-8")
     return found
 

@@ -349,7 +349,7 @@ def rotors(known: Found) -> Found:
         **{name: ("tower", grid) for name, grid in GRIDS.items()},
     }
     for turbine, speed in _left(known):
-        scene = realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
+        scene = in_one_wind(turbine, speed)
         found: dict[str, list[Answers]] = {name: [] for name in variants}
         for case in list_cases(scene):
             field = wind.turbulence(scene, case, wind.FINEST, "fast")
@@ -365,6 +365,11 @@ def rotors(known: Found) -> Found:
         }
         print(turbine, speed, sizes, flush=True)
         yield {"turbine": turbine, "speed": speed, "sizes": sizes}
+
+
+def in_one_wind(turbine: str, speed: float) -> Scene:
+    """Scene of `rotors`."""
+    return realised(turbine, speed, dynamic_inflow=True, dynamic_stall=True)
 
 
 def realised(turbine: str, speed: float, **loads: Any) -> Scene:

@@ -33,7 +33,7 @@ _REPEATS = 5
 
 
 def main() -> None:
-    """Print the table of docs/journal.md."""
+    """Print the table of docs/journal-shell.md."""
     bearing, film = reference_bearing()
 
     def solve(shell: Shell | None, count: int = 1):

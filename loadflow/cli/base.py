@@ -14,6 +14,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from loadflow.cli import completing
 from loadflow.cli.stated import App, Commands, refuse, stated
 from loadflow.errors import InputError, ValidityWarning, in_a_line
 from loadflow.storage import plain
@@ -57,7 +58,9 @@ err = Console(stderr=True)
 CubeFile = Annotated[
     Path, typer.Argument(help="Load cube (.h5), or a folder of its cases.", show_default=False)
 ]
-TurbineName = Annotated[str, typer.Option(help="Turbine: a name, or a file.")]
+TurbineName = Annotated[
+    str, typer.Option(help="Turbine: a name, or a file.", autocompletion=completing.turbines)
+]
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for a machine to read.")]
 
 OutFolder = Annotated[Path, typer.Option("--out", "-o", help="Folder for runs.")]

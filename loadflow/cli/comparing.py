@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from loadflow.cli import completing
 from loadflow.cli.base import (
     AsJson,
     OtherSettings,
@@ -37,7 +38,11 @@ def compare(
     loads: LoadFiles = None,
     candidate: Annotated[
         list[str] | None,
-        typer.Option("--candidate", help="Name of one to compare, may be repeated; default all."),
+        typer.Option(
+            "--candidate",
+            help="Name of one to compare, may be repeated; default all.",
+            autocompletion=completing.candidates,
+        ),
     ] = None,
     starts: Annotated[
         float | None,
@@ -103,9 +108,12 @@ def compare(
 
 @app.command()
 def init(
-    template: Annotated[str, typer.Argument(help="Name, as `loadflow list scenes` has them.")] = (
-        "quick_look"
-    ),
+    template: Annotated[
+        str,
+        typer.Argument(
+            help="Name, as `loadflow list scenes` has them.", autocompletion=completing.templates
+        ),
+    ] = "quick_look",
     output: Annotated[Path, typer.Option("-o", "--output", help="File to write.")] = Path(
         "scene.toml"
     ),
@@ -127,9 +135,12 @@ def init(
 
 @app.command("list")
 def list_known(
-    what: Annotated[str | None, typer.Argument(help="What to list; left out: what there is.")] = (
-        None
-    ),
+    what: Annotated[
+        str | None,
+        typer.Argument(
+            help="What to list; left out: what there is.", autocompletion=completing.lists
+        ),
+    ] = None,
     only: Annotated[
         str | None,
         typer.Argument(help="Only rows of this, as the first column has it: a turbine, a stage."),

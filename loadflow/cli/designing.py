@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from loadflow.cli import completing
 from loadflow.cli.base import (
     AsJson,
     OtherSettings,
@@ -40,7 +41,9 @@ def design(
     candidate: Annotated[
         str | None,
         typer.Option(
-            "--candidate", help="Which candidate; default: the scene's own bearings, or the first."
+            "--candidate",
+            help="Which candidate; default: the scene's own bearings, or the first.",
+            autocompletion=completing.candidates,
         ),
     ] = None,
     key: Annotated[

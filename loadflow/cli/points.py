@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from loadflow.cli import completing
 from loadflow.cli.base import AsJson, app, out, print_json, print_quantities, print_rows
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
@@ -48,7 +49,10 @@ def journal(
     viscosity: Annotated[float | None, typer.Option(help="Dynamic, Pa s.")] = None,
     oil: Annotated[
         str | None,
-        typer.Option(help="Oil that its own friction warms, in place of a viscosity: a name."),
+        typer.Option(
+            help="Oil that its own friction warms, in place of a viscosity: a name.",
+            autocompletion=completing.oils,
+        ),
     ] = None,
     inlet_temperature_c: Annotated[
         float, typer.Option(help="Of the oil that enters the film, °C; with --oil.")
@@ -272,7 +276,11 @@ def rolling(
         float | None, typer.Option(help="Speed, 1/min; gives the life in hours.")
     ] = None,
     oil: Annotated[
-        str | None, typer.Option(help="A lubricant by name; gives the modified life of ISO 281.")
+        str | None,
+        typer.Option(
+            help="A lubricant by name; gives the modified life of ISO 281.",
+            autocompletion=completing.oils,
+        ),
     ] = None,
     temperature_c: Annotated[float, typer.Option(help="Of the bearing, °C; with --oil.")] = 50.0,
     cleanliness: Annotated[

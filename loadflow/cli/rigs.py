@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 import typer
 
+from loadflow.cli import completing
 from loadflow.cli.base import AsJson, app, print_json, print_rows
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError
@@ -33,7 +34,9 @@ def friction_rig(
         Literal["coulomb", "film"],
         typer.Option(help="Rollers by friction coefficients, or by their films."),
     ] = "coulomb",
-    oil: Annotated[str, typer.Option(help="A lubricant by name.")] = "crankshaft-5w-30",
+    oil: Annotated[
+        str, typer.Option(help="A lubricant by name.", autocompletion=completing.oils)
+    ] = "crankshaft-5w-30",
     temperature_c: Annotated[float, typer.Option(help="Of the oil, °C.")] = 90.0,
     load: Annotated[float, typer.Option(help="Radial, on a straight shaft, N.")] = 2e3,
     pin: Annotated[

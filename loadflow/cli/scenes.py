@@ -11,6 +11,7 @@ from typing import Annotated, Any
 import typer
 from rich.table import Table
 
+from loadflow.cli import completing
 from loadflow.cli.base import (
     AsJson,
     OtherSettings,
@@ -29,6 +30,7 @@ from loadflow.cli.progress import progress, works_long
 from loadflow.cli.reading import AS_STATED, Reading, reads_load_files
 from loadflow.cli.stated import refuse
 from loadflow.errors import InputError, LoadflowError
+from loadflow.numerics.collections import few_collections
 from loadflow.numerics.fields import none_such
 from loadflow.quantities import load_cases, percent
 
@@ -44,8 +46,9 @@ LoadFiles = Annotated[
 
 def read(path: Path, loads: list[str] | None, name: str | None = None, **reading: Any) -> Any:
     """Read a scene, with other load files and under another name if they are given."""
-    from loadflow.scene.changed import with_loads, with_name
-    from loadflow.scene.scene import read_scene
+    with few_collections():
+        from loadflow.scene.changed import with_loads, with_name
+        from loadflow.scene.scene import read_scene
 
     scene = read_scene(path)
     if loads or any(value is not None for value in reading.values()):
@@ -89,8 +92,9 @@ def run(
             if not _was_run(scene, out_folder, name):
                 # before anything else: they read their modules for seconds, as this process does
                 processes = nullcontext(begun.enter_context(processes))
-            from loadflow.running.profile import Profile
-            from loadflow.running.runner import run_on
+            with few_collections():
+                from loadflow.running.profile import Profile
+                from loadflow.running.runner import run_on
 
             result = run_on(
                 processes,
@@ -325,7 +329,10 @@ def report(
 
 @app.command()
 def bench(
-    stages: Annotated[list[str] | None, typer.Argument(help="Stages; default: all.")] = None,
+    stages: Annotated[
+        list[str] | None,
+        typer.Argument(help="Stages; default: all."),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the measured speed and error of every model; `benchmarks/run` measures them anew."""
@@ -348,7 +355,10 @@ def bench(
 
 @app.command()
 def validate(
-    names: Annotated[list[str] | None, typer.Argument(help="Tables; default: all.")] = None,
+    names: Annotated[
+        list[str] | None,
+        typer.Argument(help="Tables; default: all.", autocompletion=completing.tables),
+    ] = None,
     failed: Annotated[
         bool, typer.Option("--failed", help="Show only the numbers that are out of tolerance.")
     ] = False,

@@ -82,9 +82,9 @@ class Film:
         Default (60, 20) for the gas mixture, (120, 40) else.
     grading : {"auto", "uniform", "graded"}
         Uniform cells, or cells that crowd at the narrowest gap and the bearing ends. "auto":
-        uniform for the gas mixture and with a supply, graded else. Where a few uniform cells span
-        the narrowest gap, under a heavy load or at a given position, the film is then solved on a
-        graded mesh.
+        uniform for the gas mixture, with a supply and with a `MatrixShell`, graded else. Where a
+        few uniform cells span the narrowest gap, under a heavy load or at a given position, the
+        film is then solved on a graded mesh, but with such a shell.
     shell : LocalShell, LinedShell, ThickShell, MatrixShell, HousedShell or InfluenceShell, optional
         Elastic shell, whose gap follows the pressure above that of the ends; rigid by default.
     heat : Heat, FilmHeat or PadHeat, optional

@@ -80,6 +80,11 @@ class JournalGeometry:
         """Whether parts of the bore tilt, so that K and C depend on the frequency of vibration."""
         return any(part.tilting for part in self.shape.segments)
 
+    def pressure_between(self, edge_pressure: float) -> float:
+        """Pressure (Pa) between the segments of the bore: theirs, or that of the bearing ends."""
+        own = self.shape.groove_pressure
+        return edge_pressure if own is None else own
+
     def sommerfeld_number(self, force: ArrayLike, speed: ArrayLike, viscosity: ArrayLike) -> Any:
         """So = F ψ²/(B D η |ω|), (1.13) of [Jonuschies 2015]; 0 without load, else ∞ at rest.
 

@@ -216,8 +216,9 @@ class MatrixShell(ElasticShell):
     matrix : array_like (nx nz, nx nz) or (nx, nz, nx, nz), str or path
         Growth of the gap at each cell of the film over the pressure on another, m/Pa: the
         deformation under 1 MPa on one cell is a column times 1e6 Pa. The cells are those of
-        `FilmField.pressure`, full width, the axial place running fastest. Or the name of a file
-        that holds it, of numpy (``.npy``) or rows of text.
+        `FilmField.pressure`, full width, the axial place running fastest: even across by every
+        law unless `Film.grading` is "graded". Or the name of a file that holds it, of
+        numpy (``.npy``) or rows of text.
     sha256 : str
         Of such a file; filled in. Where it is stated, the file must still be that one.
 

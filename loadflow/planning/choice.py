@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.planning.accuracy import Errors, effects_left_out, expected_errors, of_link, total
+from loadflow.planning.accuracy import Errors, effects_left_out, expected_errors, of_link
 from loadflow.planning.effects import Estimates, concerned, is_valid, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
@@ -144,7 +144,7 @@ class _Choosing:
     cases: tuple[Case, ...]
     known: Estimates
     times: dict[Any, float | None] = field(default_factory=dict)
-    parts: dict[Any, float | None] = field(default_factory=dict)
+    parts: dict[Any, tuple[float, int]] = field(default_factory=dict)
     left_out: dict[Any, list[Effect]] = field(default_factory=dict)
 
     def with_sections(self, changed: Mapping[str, Any]) -> Scene:
@@ -192,11 +192,11 @@ class _Choosing:
         for section in alternatives:
             scene = self.with_sections({name: section})
             links = self.links(scene)
-            own = self._shares(scene, links, name, ())  # what others bring may not be known
-            errors = np.where(np.isnan(own), np.inf, own).tolist()
+            own = self._shares(scene, links, name, ())
             if links not in seen:
                 seen.append(links)
-            rating = (self.doubts(name, section), *map(float, self.seconds(scene)), *errors)
+            times = map(float, self.seconds(scene))
+            rating = (self.doubts(name, section), *times, *own.ravel().tolist())
             rated.append((section, seen.index(links), rating))
         return [
             one
@@ -216,23 +216,22 @@ class _Choosing:
         Where none is valid that is accurate enough, the most accurate one of the others. What
         nobody knows counts alike: an error, or an effect that a section leaves out in doubt.
         """
-        picked, errors = self._candidates(alternatives)
+        names, picked, errors = self._candidates(alternatives)
         allowed = np.array([self.scene.allowed(result) for result, _ in self.links(self.scene)])
         doubts = {
             id(one): self.doubts(name, one) for name in alternatives for one in alternatives[name]
         }
-        unknown = np.isnan(errors).sum(axis=1)
+        known, unknown = errors[:, 0], (errors[:, 1] > 0).sum(axis=1)
         if any(doubts.values()):
             unknown += [sum(doubts[id(section)] for section in combined) for combined in picked]
         fewest = unknown == unknown.min()
-        known = np.nan_to_num(errors)
         least = known[fewest].min(axis=0, initial=np.inf)
         beyond = least > allowed
         excess = ((known - np.where(beyond, least, 0.0)) / allowed).max(axis=1, initial=0.0)
         good = fewest & (excess <= 1.0 + 1e-9)
 
         def scene_of(k: int) -> Scene:
-            return self.with_sections(dict(zip(alternatives, picked[k])))
+            return self.with_sections(dict(zip(names, picked[k])))
 
         def cost(k: int) -> tuple[tuple[int, float], float]:
             return self.seconds(scene_of(k)), float(known[k].sum())
@@ -246,21 +245,23 @@ class _Choosing:
         ranked = (k for some, by in groups for k in sorted(np.flatnonzero(some).tolist(), key=by))
         best = next((k for k in ranked if is_valid(scene_of(k))), None)
         if best is None:
-            names = ", ".join(name for name, found in alternatives.items() if len(found) > 1)
+            left = ", ".join(name for name, found in alternatives.items() if len(found) > 1)
             raise InputError(
-                f"{self.scene.name}: no models of {names} that the scene leaves open go together "
+                f"{self.scene.name}: no models of {left} that the scene leaves open go together "
                 'with what it states; name their rungs, or accuracy = "given"'
             )
         why = "most accurate that was measured"
         if good[best]:
             beside = "beside what cannot be helped"
             why = f"cheapest {beside if beyond.any() else 'that is accurate enough'}"
-        if np.isnan(errors[best]).any():
+        if (errors[best, 1] > 0).any():
             why += ", by the errors that are known"
         return scene_of(best), why
 
-    def _candidates(self, alternatives: dict[str, list[Any]]) -> tuple[list[Any], Floats]:
-        """All combinations, and their errors (n, answers); NaN where one is not measured.
+    def _candidates(
+        self, alternatives: dict[str, list[Any]]
+    ) -> tuple[list[str], list[tuple[Any, ...]], Floats]:
+        """Names of sections, all combinations of these, and errors (n, 2, answers) as of `_shares`.
 
         A link's share depends on one section. Where the links themselves depend on a section, as on
         that of a film that moves, its alternatives are gone through one by one, and the others once
@@ -273,6 +274,7 @@ class _Choosing:
             if any(self.links(self.with_sections({name: one})) != stated for one in found)
         }
         others = {name: found for name, found in alternatives.items() if name not in forking}
+        rests = [*product(*others.values())]
         combined, errors = [], []
         known: list[tuple[Any, Floats]] = []  # links, and what the others bring to them
         for fork in product(*forking.values()):
@@ -287,10 +289,8 @@ class _Choosing:
             for name in held:
                 table = table + self._shares(scene, links, name, tuple(fixed))
             errors.append(table)
-            for rest in product(*others.values()):
-                whole = fixed | dict(zip(others, rest))
-                combined.append(tuple(whole[name] for name in alternatives))
-        return combined, np.concatenate(errors)
+            combined += [fork + rest for rest in rests]
+        return [*forking, *others], combined, np.concatenate(errors)
 
     def _table(
         self,
@@ -298,15 +298,15 @@ class _Choosing:
         links: dict[tuple[str, str], tuple[Link, ...]],
         others: dict[str, list[Any]],
     ) -> Floats:
-        """What combinations of sections bring, (n, answers), the others being those of `fixed`."""
-        table = np.zeros((1, len(links)))
+        """What combinations of sections bring, (n, 2, answers), the others those of `fixed`."""
+        table = np.zeros((1, 2, len(links)))
         for name, found in others.items():
             own = [
                 self._shares(self.with_sections(fixed | {name: one}), links, name, tuple(fixed))
                 for one in found
             ]
             # the number of rows is said: results without links have no columns to find it by
-            table = (table[:, None] + own).reshape(len(table) * len(own), len(links))
+            table = (table[:, None] + own).reshape(len(table) * len(own), 2, len(links))
         return table
 
     def _shares(
@@ -316,20 +316,21 @@ class _Choosing:
         section: str,
         forking: tuple[str, ...],
     ) -> Floats:
-        """What the links to models of one section bring to each answer."""
-        found = [
-            _sum(
-                self._part(scene, place, link, forking)
-                for link in of
-                if models()[link.model].section == section
-            )
-            for place, of in links.items()
-        ]
-        return np.array([np.nan if share is None else share for share in found])
+        """What the links to models of one section bring to each answer, (2, answers).
+
+        The sum of what is known, and how many parts are not: what one model does not tell leaves
+        what is asked of the others.
+        """
+        found = np.zeros((2, len(links)))
+        for k, (place, of) in enumerate(links.items()):
+            for link in of:
+                if models()[link.model].section == section:
+                    found[:, k] += self._part(scene, place, link, forking)
+        return found
 
     def _part(
         self, scene: Scene, answer: tuple[str, str], link: Link, forking: tuple[str, ...]
-    ) -> float | None:
+    ) -> tuple[float, int]:
         """What a link brings to an answer; candidates share their sections, and so most of it."""
         sections = dict.fromkeys((models()[link.model].section, *forking))
         there = tuple(id(getattr(scene, section)) for section in sections)
@@ -338,14 +339,11 @@ class _Choosing:
             if (link.model, there) not in self.left_out:
                 self.left_out[link.model, there] = [*effects_left_out(scene, link.model)]
             left_out = self.left_out[link.model, there]
-            self.parts[place] = total(of_link(scene, *answer, link, self.known, left_out))
+            parts = of_link(scene, *answer, link, self.known, left_out)
+            shares = [part.share for part in parts]
+            known = [share for share in shares if share is not None]
+            self.parts[place] = float(sum(known)), len(shares) - len(known)
         return self.parts[place]
-
-
-def _sum(shares: Iterable[float | None]) -> float | None:
-    """Sum of shares; None if one of them is not known."""
-    every = list(shares)
-    return None if None in every else float(sum(share for share in every if share is not None))
 
 
 def _holds(scene: Scene, errors: Errors) -> bool:

@@ -7,9 +7,11 @@ import xarray as xr
 
 from loadflow.planning.accuracy import Part, contributions
 from loadflow.planning.choice import Choice
+from loadflow.planning.effects import switched
 from loadflow.planning.ladder import choices
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import effect_named
 from loadflow.stages.registry import giving, models
 from loadflow.stages.stage import Rungs
@@ -34,26 +36,26 @@ def shortfalls(wanted: Scene, choice: Choice) -> list[str]:
     for result, errors in choice.errors.items():
         allowed = wanted.allowed(result)
         links = giving(result).results[result](choice.scene)
+        parts = {
+            quantity: [*contributions(choice.scene, result, quantity, of, choice.estimates)]
+            for quantity, of in links.items()
+        }
         missing = [quantity for quantity, error in errors.items() if error is None]
-        over = {q: e for q, e in errors.items() if e is not None and e > allowed}
+        known = {name: sum(part.share or 0.0 for part in of) for name, of in parts.items()}
+        over = {name: share for name, share in known.items() if share > allowed}
         if missing:
-            parts = [
-                *contributions(
-                    choice.scene, result, missing[0], links[missing[0]], choice.estimates
-                )
-            ]
-            unknown = next(part for part in parts if part.share is None)
+            unknown = next(part for part in parts[missing[0]] if part.share is None)
             said.append(
                 f"{result}: {', '.join(missing)} not known to hold: "
                 f"{_unknown_in_words(wanted, choice, unknown)}"
             )
         if over:
             worst = max(over, key=over.__getitem__)
-            parts = [*contributions(choice.scene, result, worst, links[worst], choice.estimates)]
-            most = max(parts, key=lambda part: part.share or 0.0)
-            sizes = ", ".join(f"{q} by up to {percent(e)}" for q, e in over.items())
+            most = max(parts[worst], key=lambda part: part.share or 0.0)
+            sizes = ", ".join(f"{name} by up to {percent(e)}" for name, e in over.items())
+            off = "off, by what is known," if {*over} & {*missing} else "off"
             said.append(
-                f"{result}: off in {sizes}, {_asked(wanted, allowed)}; most of it "
+                f"{result}: {off} in {sizes}, {_asked(wanted, allowed)}; most of it "
                 f"({percent(most.share or 0.0)}): {_in_words(wanted, choice, most)}"
             )
     return said
@@ -105,7 +107,7 @@ def _help(wanted: Scene, ran: Scene, name: str) -> str:
     """What would help against a model, or an effect left out, of that name."""
     effect = effect_named(name)
     if effect is not None:
-        return effect.needs
+        return _on_in_words(wanted, ran, effect)
     # a finer one is not taken where what cannot be helped is larger
     finer = models()[name].finer(ran) if len(choices(wanted, models()[name])) > 1 else None
     return _finer_in_words(wanted, models()[name]) if finer is None else _rung_in_words(finer, name)
@@ -129,7 +131,22 @@ def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
         return f"{_rung_in_words(choice.scene, part.model)}; what would help: {help_}"
     if refused := choice.estimates.refused(effect):
         return f"{effect.name} left out, as it failed on cases of this scene: {refused}"
-    return f"{effect.name} left out; what would help: {effect.needs}"
+    help_ = _on_in_words(wanted, choice.scene, effect)
+    return f"{effect.name} left out; what would help: {help_}"
+
+
+def _on_in_words(wanted: Scene, ran: Scene, effect: Effect) -> str:
+    """What an effect needs to be on: no more than the plan's leave, where its key alone bars it."""
+    named = [key for key in effect.keys if not _leaves(wanted, key)]
+    if not named or switched(ran, effect, True) is None:
+        return effect.needs
+    return f"leave {' and '.join(named)} to the plan"
+
+
+def _leaves(scene: Scene, key: str) -> bool:
+    """Whether a scene says nothing of ``section.key``."""
+    section, name = key.split(".")
+    return name not in getattr(scene, section).model_fields_set
 
 
 def _finer_in_words(wanted: Scene, rungs: Rungs) -> str:

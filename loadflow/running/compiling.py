@@ -1,11 +1,9 @@
-"""How long this process compiles kernels, as numba tells it, and how it spends less on it."""
+"""How long this process compiles kernels, as numba tells it."""
 
 from __future__ import annotations
 
-import gc
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Self
 
 from numba.core import event
@@ -47,20 +45,3 @@ class Compiling(event.Listener):
         self._depth -= 1
         if self._depth == 0:
             self.seconds += time.perf_counter() - self._since
-
-
-@contextmanager
-def few_collections() -> Iterator[None]:
-    """Look for unreachable objects a hundredth as often.
-
-    numba makes millions of small objects that live as long as a kernel is compiled; to go through
-    them again and again takes an eighth of the time. What is there already is not gone through.
-    """
-    thresholds = gc.get_threshold()
-    gc.freeze()
-    gc.set_threshold(100 * thresholds[0], *thresholds[1:])
-    try:
-        yield
-    finally:
-        gc.set_threshold(*thresholds)
-        gc.unfreeze()

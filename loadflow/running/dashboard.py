@@ -60,6 +60,16 @@ class RunView:
         if not self.cases:
             raise InputError(f"{self.folder}: no load case of this run is finished")
 
+    def state(self) -> str:
+        """What there is to see: how many load cases, and why verdicts are missing."""
+        told = load_cases(len(self.cases))
+        if not (self.folder / "result.h5").exists():
+            return f"{told} so far. Not finished: verdicts come at the end of `loadflow run`."
+        if (self.folder / "compare.html").exists():
+            named = ", ".join(sorted(path.name for path in self.folder.glob("candidates/*/")))
+            return f"{told}, the loads of a comparison. Its candidates are runs: {named}."
+        return told
+
     def part(self, stage: str, case: str) -> Any:
         """What a stage found of a case; None where it has not run."""
         there = answered(self.folder, stage, [case])
@@ -157,7 +167,7 @@ def application(folder: str | Path) -> Callable[[], Any]:
     def page() -> Any:
         case = pn.widgets.Select(name="load case", options=view.cases)
         channels = pn.widgets.Select(name="channel", options=view.channels())
-        head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{load_cases(len(view.cases))}")
+        head = pn.pane.Markdown(f"# {view.folder.resolve().name}\n{view.state()}")
         told = _table(pn, view.verdicts()), "### Models", _table(pn, view.models())
         rooms = [("Verdicts", pn.Column(*told, sizing_mode="stretch_width"))]
         loads = pn.bind(lambda c, n: _drawn(pn, view.load_figure(c, n)), case, channels)

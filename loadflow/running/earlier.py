@@ -25,7 +25,9 @@ from loadflow.running.parts import digest_of, unsound
 from loadflow.running.report_state import report_is_current
 from loadflow.running.result import Run, run_of
 from loadflow.scene.cases import Case, list_cases
+from loadflow.scene.messages import written
 from loadflow.scene.scene import Scene, make_scene
+from loadflow.scene.written import origins
 from loadflow.stages.registry import STAGES, giving
 from loadflow.storage import write_json
 
@@ -65,7 +67,13 @@ def check_settings(folder: Path, scene: Scene) -> None:
         made_with = manifest["stages"].get(name)
         there = sum(digest_of(path) == made_with for path in parts_of(folder, name))
         if there:
-            raise InputError(other_parts(folder, name, there, keys))
+            raise InputError(other_parts(folder, name, there, _as_written(scene, keys)))
+
+
+def _as_written(scene: Scene, keys: Iterable[str]) -> list[str]:
+    """Keys of sections as a scene has them, at the place of the first bearing that has them."""
+    places = origins(tomllib.loads(scene.to_toml()))
+    return [".".join(map(str, written(key.split("."), places))) for key in keys]
 
 
 def _changed(stated: Any, before: Any, place: str) -> Iterator[str]:

@@ -29,6 +29,7 @@ from threading import Thread
 from typing import Any, Protocol, TypeVar
 
 from loadflow.errors import InputError, LoadflowError, in_a_line
+from loadflow.numerics.collections import few_collections
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -202,7 +203,7 @@ class _Processes:
 def _read_modules(_: int) -> None:
     """What a load case needs; a process that has it reads nothing again."""
     # the process that plans the run keeps a core: all others wait for it
-    with _reading:
+    with _reading, few_collections():
         import loadflow.running.cases  # noqa: F401
 
 

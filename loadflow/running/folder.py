@@ -139,6 +139,8 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         found = json.loads(path.read_text(encoding="utf-8"))
     except FileNotFoundError as error:
         raise InputError(f"{path}: there is none; `loadflow run` makes it") from error
+    except NotADirectoryError as error:
+        raise InputError(f"{folder}: is a file; the folder of a run is needed") from error
     except ValueError as error:  # no JSON, or not even text
         raise InputError(f"{path}: damaged ({error}); `loadflow run` makes it anew") from error
     known = isinstance(found, dict)

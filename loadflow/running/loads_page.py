@@ -65,7 +65,7 @@ def _load_tables(tables: dict[str, xr.Dataset]) -> Iterator[Table]:
             continue
         for label, part in _parts(data[name], title, symbol):
             values, unit = readable(part.assign_attrs(data[name].attrs))
-            if not values.any():
+            if not np.nan_to_num(values).any():
                 continue  # a moment bearing's own moment elsewhere, say
             table = dict(zip(part["statistic"].values, np.moveaxis(values, _axis(part), 0)))
             rows.append(

@@ -32,12 +32,13 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube import make_case
+from loadflow.numerics.collections import few_collections
 from loadflow.planning.effects import switched
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import Plan
 from loadflow.running.cases import do_case, is_ready, open_inputs
 from loadflow.running.code_stamp import code_stamp
-from loadflow.running.compiling import Compiling, few_collections
+from loadflow.running.compiling import Compiling
 from loadflow.running.executor import Executor
 from loadflow.running.folder import part_file
 from loadflow.running.parts import digest_of, is_sound, save_part

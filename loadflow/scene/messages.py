@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import fields
 from functools import cache
 from typing import TYPE_CHECKING, Any, cast
@@ -39,10 +39,12 @@ def message(
         What was read, whose JSON Schema says what keys there are; None: they are not told.
     """
     lines = []
-    for item in _of_stated_kind(error.errors()):
+    classes = _schema(model).get("$defs", {})
+    for item in _of_given_type(_of_stated_kind(error.errors()), classes):
         place = [*_place(item["loc"])]
         key = ".".join(str(part) for part in written(place, origins)) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
+        reason = reason.replace("String should match", "must match")
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
             lines.append(f"{source}: {key}: {_unknown(item['loc'], _schema(model))}")
         elif item["type"] == "missing":
@@ -114,7 +116,7 @@ def written(place: Iterable[int | str], origins: Mapping[Location, Location]) ->
 
 def _names_key(key: str, reason: str) -> bool:
     """Whether what is said of a scene as a whole begins with the key that it is about."""
-    return key == "scene" and re.match(r"[\w.-]+( = [^:]*)?: ", reason) is not None
+    return key == "scene" and re.match(r"[\w.-]+( = |: )", reason) is not None
 
 
 _NO_TABLE = ("dataclass_type", "model_type", "dict_type", "mapping_type")
@@ -211,8 +213,52 @@ def _place(location: Location) -> Iterator[int | str]:
     for k, part in enumerate(location):
         before = location[k - 1] if k else ""
         of_place = location[max(k - 3, 0) : k - 1] == ("thrust", "bearings") and part in AXIAL
-        if part not in _TAGS.get(before, ()) and not of_place:
+        if part not in _TAGS.get(before, ()) and not of_place and part != "[key]":
             yield part
+
+
+_TYPES = {
+    "constrained": int | float, "float": int | float, "int": int, "str": str, "literal": str,
+    "dict": Mapping, "list": list, "tuple": list,
+}  # fmt: skip
+"""What a value is, by how pydantic names a type that a key may have beside others."""
+
+
+def _type_of(part: int | str, tables: Container[Any]) -> Any:
+    """Type that pydantic put after a key which may have several; None: it is a key."""
+    if part in tables:
+        return Mapping
+    name = re.fullmatch(r"(\w+)(-\w+|\[.*\])?", str(part))
+    return _TYPES.get(name[1]) if name else None
+
+
+def _of_given_type(errors: list[Any], classes: Container[Any]) -> list[Any]:
+    """Of a key that may have several types, what is said of the one that stands there.
+
+    Where none of them stands there, one line says what all of them ask for.
+    """
+    shown, several = [], dict[Location, list[Any]]()
+    for item in errors:
+        tables = classes if item["type"] in _NO_TABLE else ()
+        types = [_type_of(part, tables) if k else None for k, part in enumerate(item["loc"])]
+        k = next((k for k, one in enumerate(types) if one), None)
+        if k is None:
+            shown.append(item)
+            continue
+        place = item["loc"][:k]
+        told = {**item, "loc": (*place, *item["loc"][k + 1 :]), "of": types[k]}
+        several.setdefault(place, []).append(told)
+    for place, items in several.items():
+        given = next((one["input"] for one in items if one["loc"] == place), None)
+        fitting = [one for one in items if given is None or isinstance(given, one["of"])]
+        fitting = [one for one in fitting if one["loc"] != place or one["type"] != "literal_error"]
+        asked = [one["msg"].partition(", unable")[0] for one in items if one["loc"] == place]
+        if not fitting and all(one["type"] in _NO_TABLE for one in items):
+            fitting = items[:1]
+        words = " or ".join(one.removeprefix("Input should be ") for one in asked)
+        words = words.replace("valid dictionary", "table").replace("valid string", "text in quotes")
+        shown += fitting or [{**items[0], "type": "", "msg": f"Input should be {words}"}]
+    return shown
 
 
 def _of_stated_kind(errors: list[Any]) -> list[Any]:

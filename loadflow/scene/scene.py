@@ -160,8 +160,9 @@ class Scene(Section, WithFittingBeams, BaseModel):
                     have = ", ".join(self.shaft.bearings) or "none"
                     room = key.split(".")[0]
                     raise ValueError(
-                        f"{key} = {bearing!r}: the shaft has the bearings {have}; set {key} to "
-                        f"what it has, or leave what begins with {room} out of results"
+                        f"{key} = {bearing!r} (bearings.{bearing}): the shaft has the bearings "
+                        f"{have}; name one of these, or leave what begins with {room} out of "
+                        "results"
                     )
         return self
 

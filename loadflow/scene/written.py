@@ -219,7 +219,8 @@ def anchored(data: dict[str, Any], folder: Path) -> dict[str, Any]:
         found["shaft"] = {name: _on_frames(part, path) for name, part in shaft.items()}
     turbine = data.get("turbine")
     if isinstance(turbine, dict) and isinstance(name := turbine.get("name"), str):
-        file = name if name in turbine_names() or not Path(name).suffix else path(name)
+        base = name.rpartition("@")[0] or name  # a power may have a point: nrel-5mw@5.5e6
+        file = name if base in turbine_names() or not Path(name).suffix else path(name)
         found["turbine"] = turbine | {"name": file}
     elif isinstance(turbine, dict) and "file" in turbine:
         found["turbine"] = turbine | {"file": path(turbine["file"])}

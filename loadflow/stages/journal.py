@@ -361,7 +361,7 @@ def film_key(scene: Scene) -> str:
 
 
 def warm_films(options: Journal) -> float:
-    """Time of a film with its heat balance over that of an isothermal one; see docs/journal.md."""
+    """Time of a film with its heat balance over that of an isothermal one; docs/journal-heat.md."""
     return 7.0 if options.heat is not None and not options.in_motion else 1.0
 
 

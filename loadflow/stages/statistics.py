@@ -17,6 +17,9 @@ from loadflow.stages.summary import over_cases
 SLOPE = 4.0
 """Wöhler exponent of the damage-equivalent loads: that of welded and forged steel parts."""
 
+_LOADS = ("N", "N m")
+"""Units of what damages; a speed or an angle has no damage-equivalent load."""
+
 STATISTICS = ("mean", "std", "min", "max", "skewness", "kurtosis", "del")
 
 
@@ -30,8 +33,9 @@ def describe(series: xr.Dataset) -> xr.Dataset:
     """Return `STATISTICS` of every variable over ``time``, dimension ``statistic``.
 
     Skewness and kurtosis are those of the distribution of the values (0 and 3 if it is normal; both
-    0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`. Left
-    out are the azimuth, an angle that only runs round, the supervisory state and flags.
+    0 for a constant). The damage-equivalent load is a range at 1 Hz with the exponent `SLOPE`, and
+    NaN of what is no force or moment. Left out are the azimuth, an angle that only runs round, the
+    supervisory state and flags.
     """
     over_time = (name for name in series.data_vars if "time" in series[name].dims)
     wanted = [name for name in over_time if name not in ("azimuth", "state", "converged")]
@@ -44,6 +48,8 @@ def describe(series: xr.Dataset) -> xr.Dataset:
 def _describe(data: xr.DataArray, duration: float) -> xr.DataArray:
     values = np.moveaxis(data.values.astype(float), data.dims.index("time"), -1)
     rows = [_row(x, duration) for x in values.reshape(-1, values.shape[-1])]
+    if data.attrs.get("units") not in _LOADS:
+        rows = [[*row[:-1], np.nan] for row in rows]
     dims = [dim for dim in data.dims if dim != "time"]
     coords = {dim: data[dim] for dim in dims if dim in data.coords}
     shape = (*values.shape[:-1], len(STATISTICS))

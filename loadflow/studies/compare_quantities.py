@@ -85,7 +85,8 @@ QUANTITIES: dict[str, Compared] = {
         no_error=_NO_SPEED,
     ),
     "minimum_load": Compared(
-        "smallest load over the dynamic capacity (skidding)", "%", _BEFORE, "rolling", rule=True
+        "load over the dynamic capacity, exceeded for 95 % of the time (skidding)", "%", _BEFORE,
+        "rolling", rule=True,
     ),
     "standstill": Compared(
         "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling",

@@ -66,7 +66,7 @@ def statistic_row(record: dict[str, Any]) -> list[str]:
     values = xr.DataArray([record[s] for s in STATISTICS], attrs={"units": record["units"]})
     shown, unit = readable(values)
     numbers = [
-        f"{record[name]:.3g}" if name in UNITLESS else f"{value:.5g}"
+        "-" if np.isnan(value) else f"{record[name]:.3g}" if name in UNITLESS else f"{value:.5g}"
         for name, value in zip(STATISTICS, shown.tolist())
     ]
     return [record["case"], record["component"], unit, *numbers]

@@ -37,7 +37,7 @@ from loadflow.studies.compare_margins import load_by_row, lubrication
 from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import Judged, Number
-from loadflow.studies.compare_risks import LIGHT
+from loadflow.studies.compare_risks import LIGHT, mostly_exceeded
 from loadflow.studies.compare_supply import FEED
 from loadflow.studies.design_point import allowed_pressure, judge_design
 from loadflow.studies.deviations import Built, Tolerance, tolerances_of, with_places
@@ -291,7 +291,8 @@ def _of_rolling(
         kappa = viscosity_ratio(lubrication(own), speed[turning], bearing.pitch_diameter)
         ratios.append(float(kappa.min()))
         share = answer.equivalent_load[turning] / bearing.rated_capacity
-        loads.append(float(share.min()) / LIGHT[bearing.element])
+        weight = samples["weight"].values[turning]
+        loads.append(mostly_exceeded(share, weight) / LIGHT[bearing.element])
         if bearing.group_dims[0] == "row" and bearing.groups[0] > 1 and bearing.takes_thrust:
             hardest = int(np.argmax(np.abs(force[:, 0])))
             rows.append(float(load_by_row(bearing, answer)[hardest].max()))

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from numba import typeof
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
@@ -27,7 +28,7 @@ from loadflow.journal import (
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid as grid_rung
 from loadflow.journal.models.composed_rest import films_at_rest
-from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.models.composed_uneven import EVEN, Thickness
 from loadflow.journal.solvers.warm import coupled
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact, ExponentialOil
@@ -47,6 +48,17 @@ def film(rung="reduced", grid=(72, 12), heat=HEAT, **more):
     return Film(None, GasMixture(5e4), grid=grid, heat=heat, rung=rung, **more)
 
 
+_AT_REST = {}
+
+
+def at_rest(rung, more, line):
+    """The film at rest on the fine cells, once for all tests that ask for it."""
+    asked = repr((rung, more, line))
+    if asked not in _AT_REST:
+        _AT_REST[asked] = BEARING.equilibrium(LOAD, SPEED, film(rung, FINE, **more), **line)
+    return _AT_REST[asked]
+
+
 @pytest.mark.parametrize(
     ("more", "line"),
     [
@@ -62,8 +74,7 @@ def film(rung="reduced", grid=(72, 12), heat=HEAT, **more):
 )
 def test_a_film_at_rest_is_that_of_the_grid(more, line):
     """On the same cells, strips as many as rows; what leaves is the friction, to rounding."""
-    own = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE, **more), **line)
-    grid = BEARING.equilibrium(LOAD, SPEED, film("grid", FINE, **more), **line)
+    own, grid = (at_rest(rung, more, line) for rung in ("reduced", "grid"))
     assert own.converged
     assert own.heat_imbalance < 1e-8
     left = own.heat_carried + own.heat_conducted
@@ -129,10 +140,7 @@ def test_oil_mixes_between_segments_as_on_the_grid(shape, more, line):
 )
 def test_fresh_oil_mixes_in_grooves_as_on_the_grid(supply, more, line):
     """In a pocket, one beside a groove of all the width under tilt, and a pair of pockets."""
-    own, grid = (
-        BEARING.equilibrium(LOAD, SPEED, film(rung, FINE, supply=supply, **more), **line)
-        for rung in ("reduced", "grid")
-    )
+    own, grid = (at_rest(rung, more | {"supply": supply}, line) for rung in ("reduced", "grid"))
     assert own.heat_imbalance < 1e-8
     for name, most in zip(TOLD, (0.006 if "heat" in more else 0.004, 0.007, 0.004)):
         assert getattr(own, name) == pytest.approx(float(getattr(grid, name)), rel=most)
@@ -175,7 +183,7 @@ def test_more_cells_across_are_more_strips_up_to_the_friction_of_the_grid():
     """What mixes between strips is of first order, as between rows: the same on both rungs."""
     fine = (96, 48)
     own, grid = (BEARING.equilibrium(LOAD, SPEED, film(rung, fine)) for rung in ("reduced", "grid"))
-    few = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE))
+    few = at_rest("reduced", {}, {})
     assert own.friction_power == pytest.approx(float(grid.friction_power), rel=1e-3)
     assert own.temperature > few.temperature + 0.3
 
@@ -189,6 +197,15 @@ def test_with_one_viscosity_it_is_the_isothermal_film():
         expected = getattr(cold, name)
         scale = np.abs(expected).max()
         np.testing.assert_allclose(getattr(warm, name), expected, rtol=3e-3, atol=3e-3 * scale)
+
+
+def test_a_gap_that_grows_unevenly_is_no_other_kind_of_film_to_the_compiler():
+    """Else all kernels of films with effects are compiled once more, for 40 s."""
+    around, z = np.linspace(0.1, 0.2, 6), np.array([0.0, 0.4, 0.8])
+    values = np.outer(1.0 + around, [1.0, 0.9, 0.8])
+    grown = Thickness(z, values, growth=0.01 * values)
+    places = np.array([0.1, 0.3, 0.5, 0.7])
+    assert typeof(grown.at(places, places, around, around)) == typeof(EVEN)
 
 
 def test_reversed_motion_is_the_mirror_image():
@@ -257,7 +274,7 @@ PLACED = [
 
 @pytest.mark.parametrize(("more", "line"), PLACED)
 def test_a_film_at_a_place_is_that_of_the_grid_and_carries_the_load_at_rest_there(more, line):
-    rest = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE, **more), **line)
+    rest = at_rest("reduced", more, line)
     own, grid = (
         BEARING.pressure(rest.eccentricity, SPEED, film(rung, FINE, **more), **line)
         for rung in ("reduced", "grid")
@@ -290,7 +307,7 @@ def test_a_settled_stiffness_is_that_of_the_grid(more, line):
         BEARING.equilibrium(LOAD, SPEED, film(rung, FINE, **more | {"heat": heat}), **line)
         for rung in ("reduced", "grid")
     )
-    frozen = BEARING.equilibrium(LOAD, SPEED, film(grid=FINE, **more), **line).stiffness
+    frozen = at_rest("reduced", more, line).stiffness
     for block in (np.s_[:2, :2], np.s_[2:, 2:]):
         if not own.stiffness[block].size:
             continue
@@ -383,8 +400,6 @@ def test_pads_with_heat_over_the_area_are_those_of_the_grid():
     for name in (*TOLD, "eccentricity", "pad_tilt", "stiffness", "film_temperature"):
         np.testing.assert_array_equal(getattr(own, name), getattr(grid, name))
     assert own.maximum_temperature > HEAT.inlet_temperature + 5.0
-    with pytest.raises(InputError, match="that of one temperature for pads in motion"):
-        pads.orbit(np.linspace(0.0, 1e-2, 3), np.tile(LOAD, (3, 1)), SPEED, film())
 
 
 def test_growth_asks_for_a_film_that_runs_round():

@@ -192,7 +192,7 @@ def test_an_orbit_with_effects_around_lobes_is_that_of_the_grid():
 @pytest.mark.parametrize(
     ("shape", "given", "name"),
     [
-        (Lobes(count=2, groove_pressure=3e5), {}, "groove_pressure"),
+        (Arc(angle=0.0, span=2.6, groove_pressure=3e5), {}, "groove_pressure"),
         (LEMON, {"inlet": "widest gap"}, "inlet"),
     ],
 )

@@ -117,6 +117,22 @@ def test_a_thick_shell_is_that_of_its_influence_numbers():
         np.testing.assert_allclose(given_numbers.stiffness, thick.stiffness, rtol=1e-5)
 
 
+@pytest.mark.parametrize("law", [MassConserving(), Reynolds()])
+def test_a_matrix_is_that_of_even_cells_by_laws_with_a_sharp_rupture(law):
+    film = FILM | {"cavitation": law, "inlet": None}
+    matrix = film | {"shell": MatrixShell(_influence_numbers())}
+    numbers, thick, reduced = (
+        BEARING.equilibrium(LOAD, SPEED, **words).minimum_film
+        for words in (
+            matrix,
+            film | {"shell": THICK, "grading": "uniform"},
+            matrix | {"rung": "reduced"},
+        )
+    )
+    assert numbers == pytest.approx(thick, rel=1e-9)
+    assert numbers == pytest.approx(reduced, rel=0.02)
+
+
 def test_influence_numbers_are_reciprocal_and_symmetric_about_three_planes():
     numbers = _influence_numbers()
     np.testing.assert_allclose(numbers, numbers.T, rtol=1e-9, atol=1e-12 * numbers.max())

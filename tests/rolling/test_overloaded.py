@@ -105,6 +105,35 @@ def test_the_overload_is_that_of_iso_76():
     assert static_overload(ring, 0.0, 0.0, half) == pytest.approx(0.5)
 
 
+@pytest.mark.parametrize(
+    ("rows", "arrangement", "sharing"),
+    [
+        (1, "back-to-back", 1), (2, "tandem", 1), (3, "tandem", 1), (2, "face-to-face", 2),
+        (4, "back-to-back", 2),
+    ],
+)  # fmt: skip
+def test_the_overload_knows_how_many_rows_carry_a_thrust(rows, arrangement, sharing):
+    leaning = RollerBearing(
+        rollers=40, roller_diameter=0.06, roller_length=0.08, pitch_diameter=1.0,
+        rows=rows, row_spacing=0.2, contact_angle=0.35, arrangement=arrangement,
+    )  # fmt: skip
+    push = 0.3 * leaning.static_capacity
+    told = static_overload(leaning, 0.0, push, 0.0)
+    assert told == pytest.approx(0.3 * sharing * 0.22 / np.tan(0.35))
+    # the fullest roller: all of the rows that carry a thrust share it alike
+    solved = 1 / leaning.equilibrium((0.0, 0.0, push)).static_safety
+    assert told == pytest.approx(solved, rel=0.15)
+    assert static_overload(leaning, push, 0.0, 0.0) == pytest.approx(0.3)
+
+
+def test_rows_of_cylindrical_rollers_carry_a_radial_load_together():
+    four = RollerBearing(
+        rollers=40, roller_diameter=0.06, roller_length=0.08, pitch_diameter=1.0, rows=4,
+        row_spacing=0.1,
+    )  # fmt: skip
+    assert static_overload(four, four.static_capacity, 0.0, 0.0) == pytest.approx(1.0)
+
+
 def test_bearings_of_every_kind_have_an_overload():
     one = {"roller_diameter": 0.04, "roller_length": 0.038, "pitch_diameter": 2.6}
     crossed = CrossedRollerBearing(rollers=180, **one)

@@ -112,6 +112,14 @@ def test_modified_life_of_a_main_bearing():
         lubricated_life.reliability_factor(0.5)
 
 
+@pytest.mark.parametrize("reliability", [0.95, 0.97, 0.99, 0.994, 0.998, 0.999, 0.9995])
+def test_reliabilities_follow_weibull_with_a_life_that_none_falls_short_of(reliability):
+    # ISO/TR 1281-2: slope 1.5, nothing fails within a twentieth of L10
+    weibull = 0.05 + 0.95 * (np.log(1 / reliability) / np.log(1 / 0.9)) ** (1 / 1.5)
+    a1 = lubricated_life.reliability_factor(reliability)
+    assert a1 == pytest.approx(weibull, rel=0.03)
+
+
 def test_system_life_of_alike_parts_and_of_one_weak_part():
     assert system_life([8.0, 8.0], 1.5) == pytest.approx(8 / 2 ** (1 / 1.5))
     assert system_life([1.0, 1e9]) == pytest.approx(1.0, rel=1e-6)

@@ -2,8 +2,10 @@
 
 import asyncio
 import re
+import shutil
 import subprocess
 import sys
+from importlib.util import find_spec
 
 import numpy as np
 import pytest
@@ -14,7 +16,8 @@ from loadflow.running.dashboard import RunView, application
 from loadflow.running.runner import run
 from loadflow.scene.scene import make_scene
 
-pytest.importorskip("panel", reason="panel is not installed (extra view)")
+if find_spec("panel") is None:  # to read it takes seconds, of each process that collects tests
+    pytest.skip("panel is not installed (extra view)", allow_module_level=True)
 browser = pytest.importorskip("browser", reason="needs tornado, which comes with panel")
 
 
@@ -68,6 +71,25 @@ def test_it_draws_the_numbers_of_the_run(finished):
 def test_a_folder_that_is_no_run_is_refused(tmp_path):
     with pytest.raises(InputError, match=r"manifest\.json"):
         application(tmp_path)
+
+
+def test_a_file_in_place_of_a_run_is_refused_as_one(tmp_path):
+    (tmp_path / "scene.toml").write_text("", encoding="utf-8")
+    with pytest.raises(InputError, match=r"scene\.toml: is a file; the folder of a run"):
+        RunView(tmp_path / "scene.toml")
+
+
+def test_it_tells_why_verdicts_are_missing(finished, tmp_path):
+    assert RunView(finished.path).state() == "2 load cases"
+    begun = tmp_path / "begun"
+    shutil.copytree(finished.path, begun)
+    (begun / "result.h5").unlink()
+    assert RunView(begun).verdicts() == []
+    assert RunView(begun).state().startswith("2 load cases so far. Not finished")
+    (begun / "compare.html").touch()
+    shutil.copy(finished.path / "result.h5", begun)
+    (begun / "candidates" / "two-spherical").mkdir(parents=True)
+    assert RunView(begun).state().endswith("Its candidates are runs: two-spherical.")
 
 
 @pytest.mark.browser

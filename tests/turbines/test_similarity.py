@@ -83,6 +83,13 @@ def test_loads_of_a_larger_suspension_grow_with_forces_and_masses():
     np.testing.assert_allclose(other["tilt"], one["tilt"], rtol=1e-9, atol=1e-15)
 
 
+@pytest.mark.parametrize("name", ["nrel-5mw@20e6", "nrel-5mw@5.5e6"])
+def test_a_scene_file_names_a_turbine_of_another_power_with_or_without_a_point(tmp_path, name):
+    file = tmp_path / "large.toml"
+    file.write_text(f'turbine = {{ name = "{name}" }}', encoding="utf-8")
+    assert read_scene(file).turbine.name == name
+
+
 def test_a_scene_scales_the_suspension_it_does_not_state_and_warns(tmp_path):
     scene = make_scene({"name": "large", "turbine": {"name": "nrel-5mw@20e6"}})
     usual = make_scene({"name": "usual"})

@@ -56,18 +56,21 @@ def is_cylindrical(bearing: JournalGeometry, film: Film, line: Line) -> bool:
 
 
 def build_film(
-    diameter: float, width: float, relative_clearance: float, options: Film
+    diameter: float, width: float, relative_clearance: float, options: Film, *grooves: float
 ) -> DiscreteFilm:
-    """Discrete film of a cylindrical bearing (m) around an aligned shaft."""
-    return cylindrical_film(diameter, width, relative_clearance, options)[1]
+    """As `cylindrical_film`, without the gap."""
+    return cylindrical_film(diameter, width, relative_clearance, options, *grooves)[1]
 
 
 def cylindrical_film(
-    diameter: float, width: float, relative_clearance: float, options: Film
+    diameter: float, width: float, relative_clearance: float, options: Film, *grooves: float
 ) -> tuple[CylindricalGap, DiscreteFilm]:
-    """Gap and discrete film of a cylindrical bearing (m) around an aligned shaft."""
+    """Gap and discrete film of a cylindrical bearing (m) around an aligned shaft.
+
+    `grooves` are pressures (Pa) of a bore of which these are but the units: oil may enter there.
+    """
     law, supply, contact = options.law, options.supply, options.contact
-    options.check_oil()
+    options.check_oil(*grooves)
     inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
     graded = options.grading == "graded"
@@ -92,7 +95,10 @@ def _cells(options: Film, half: bool) -> tuple[int, int]:
 def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedMesh:
     """Cells of a film in a bore of any shape, of `half` of its width or all of it."""
     bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
-    graded = options.grading == "graded" or (options.grading == "auto" and not options.law.smooth)
+    # a given matrix is that of cells even across, at rest as in motion and on "reduced"
+    free = options.shell is None or options.shell.any_grid
+    crowd = free and options.grading == "auto" and not options.law.smooth
+    graded = crowd or options.grading == "graded"
     turns, places = relief_marks(bore.relief, bore.radius, bore.width)
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     marks = (*turns, *around), (*places, *ends, *-ends)
@@ -113,8 +119,7 @@ def shaped_film(
         options.inlet,
         "None but for a cylindrical, aligned bearing",
     )
-    bore, pressure = Bore.of(bearing), bearing.shape.groove_pressure
-    pressure = options.edge_pressure if pressure is None else pressure
+    bore, pressure = Bore.of(bearing), bearing.pressure_between(options.edge_pressure)
     options.check_oil(pressure)
     half = straight and all(part.symmetric(bore.width) for part in bore.relief)
     half = half and (options.shell is None or options.shell.symmetric_on(options.cells[1]))

@@ -37,7 +37,7 @@ class ElasticFilm(DiscreteFilm):
         super().__init__(gap, *film)
         self.gap: ElasticGap = gap
         self.compliance = compliance
-        self.elastic = True
+        self.elastic, self.held_rigid = True, False
         self.stencil = np.empty((5, *gap.mesh.shape))
         self._share = 1.0  # share of its compliance that the shell has
         self._all_at_once = 0.0  # work of systems that were solved so
@@ -66,7 +66,7 @@ class ElasticFilm(DiscreteFilm):
 
     def relax(self, share: float = 1.0) -> None:
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
-        self._share = share
+        self._share, self.held_rigid = share, share == 0.0
         self.gap.grow(np.zeros(self.mesh.shape))
 
     def further_work(self) -> float:

@@ -29,6 +29,7 @@ from loadflow.journal.film.asperity_load import NodeLoad
 from loadflow.journal.film.energy_balance import FRESH, Flows
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.film.integrals import dragged_past_pads, idle_columns
 from loadflow.journal.film.ring_growth import RingExpansion
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.heat import FilmHeat
@@ -91,15 +92,19 @@ class EnergyEquation(Temperatures):
 
     def alone(self, film: Solved, guess: Array) -> Warmth:
         """Temperatures of one film at the speed that is set, as `solve_mean`."""
-        return self.solve_mean([(film.u, film.position, self.film.speed)], guess)
+        one = film.u, film.position, self.film.speed, idle_columns(self.film)
+        return self.solve_mean([one], guess)
 
-    def solve_mean(self, films: Sequence[tuple[Array, Array, float]], guess: Array) -> Warmth:
+    def solve_mean(
+        self, films: Sequence[tuple[Array, Array, float, NDArray[np.bool_]]], guess: Array
+    ) -> Warmth:
         """Temperatures in balance with the mean of the heat that some films make and carry.
 
         Parameters
         ----------
-        films : sequence of (array (nx, nz), array (m,), float)
-            Unknowns of the film, position of the shaft in clearances, and speed, rad/s.
+        films : sequence of (array (nx, nz), array (m,), float, array of bool (nx,))
+            Unknowns of the film, position of the shaft in clearances, and speed, rad/s; columns of
+            cells of pads without load.
         guess : array (nx, nz)
             Temperatures to start from, K.
 
@@ -113,8 +118,9 @@ class EnergyEquation(Temperatures):
         unit = film.mirrors * film.viscosity * film.radius**4 / clearance
         each: list[Flows] = []
         gaps, sheared, pumped = (np.zeros(self.size) for _ in range(3))
-        for u, position, speed in films:
+        for u, position, speed, idle in films:
             film.set_speed(speed)
+            film.unload(idle)
             own, shear, lost = self._given(u, position)
             each.append(own)
             sheared += unit * speed**2 * shear / len(films)
@@ -168,23 +174,13 @@ class EnergyEquation(Temperatures):
     ) -> None:
         """Let no more oil through the film of a pad without load than its narrowest place drags.
 
-        Its pressure is held, so that its balance of mass is nobody's. Changes all arrays.
+        Changes all arrays.
         """
-        film = self.film
-        idle = np.asarray((film.fixed & ~film.grooved).any(axis=1))
-        if not idle.any():
-            return
-        across[idle], lost[idle] = 0.0, 0.0
-        rows = film.mesh.shape[1]
-        every = film.wedge * self.gap.coef[coefficient.E, :, :rows] * film.mesh.area
-        edges = np.flatnonzero(np.diff(np.concatenate([[False], idle, [False]]).astype(int)))
-        for first, end in edges.reshape(-1, 2):
+        for first, end, through, share in dragged_past_pads(self.film):
             faces, cells = slice(first, end + 1), slice(first, end)
-            least = np.abs(every[faces]).argmin(axis=0)
-            through = every[faces][least, np.arange(rows)]
+            across[cells], lost[cells] = 0.0, 0.0
             around[faces] = dragged[faces] = through
-            within = 0.5 * (every[first:end] + every[first + 1 : end + 1])
-            fill[cells] = through / np.where(within == 0.0, 1.0, within)
+            fill[cells] = share
 
     @cached_property
     def _faces(self) -> tuple[Numbers, Numbers]:

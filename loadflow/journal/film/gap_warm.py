@@ -52,7 +52,7 @@ class WarmGap(GrowingGap):
 
     def thicken(self, across: AcrossFilm) -> None:
         """Set the viscosity of the cells (nx, nz)."""
-        self._across = across
+        self.across_film = across
         faces = self._over_faces(across.flow), self._over_faces(across.drag)
         self.thinned = Thinned(1.0 / faces[0], faces[1], 1.0 / across.flow)
 
@@ -70,7 +70,7 @@ class WarmGap(GrowingGap):
             coef[row.G, :, :rows] *= self.thinned.around
             coef[row.E, :, :rows] *= self.thinned.dragged
             coef[row.CELL3, :-1, :rows] *= self.thinned.across
-        self.coef[row.HINV, :-1, :rows] *= self._across.shear
+        self.coef[row.HINV, :-1, :rows] *= self.across_film.shear
         faces_across(self.coef, self.mesh.dz, False, self.coef)
         return frame
 
@@ -84,7 +84,7 @@ class WarmGap(GrowingGap):
     def shear(self) -> Array:
         """∫ 1/H of the cells (nx, nz) around, where the shaft was last placed."""
         rows = self.mesh.shape[1]
-        return np.asarray(self.coef[row.HINV, :-1, :rows] / self._across.shear)
+        return np.asarray(self.coef[row.HINV, :-1, :rows] / self.across_film.shear)
 
 
 class ElasticWarmGap(WarmGap, ElasticGap):

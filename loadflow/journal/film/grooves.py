@@ -105,7 +105,7 @@ def groove_numbers(
         if not (inside if shell is None else inside[shell]).any():
             raise InputError(
                 f"grooves[{number}].angle = {groove.angle!r} is not allowed: an angle, rad, at "
-                "which there is shell"
+                "which there is shell; what lies between its segments has shape.groove_pressure"
             )
         other = numbers[inside].max(initial=-1)
         if other >= 0:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -61,7 +62,10 @@ def integrals(film: DiscreteFilm) -> Integrals:
     dissipation = float(np.sum(coef[kernel.G, : len(around), :cells] * along * around * dz))
     flow = coef[kernel.H3, :-1] * mesh.gz * driving
     if film.sheared_by_fill:
-        sheared = sheared * film.state[FILL]
+        fill = film.state[FILL].copy()
+        for first, end, _, share in dragged_past_pads(film):
+            fill[first:end] = share
+        sheared = sheared * fill
     return Integrals(
         peak=float(pressure.max()),
         dissipation=dissipation + float(np.vdot(flow, drops)),
@@ -69,6 +73,39 @@ def integrals(film: DiscreteFilm) -> Integrals:
         outflow=float(np.maximum(flow[:, [0, -1]], 0.0).sum()),
         fill=float(np.vdot(film.state[FILL], gap) / gap.sum()),
     )
+
+
+def idle_columns(film: DiscreteFilm) -> NDArray[np.bool_]:
+    """Columns of cells (nx,) of pads without load."""
+    return np.asarray((film.fixed & ~film.grooved).any(axis=1))
+
+
+def dragged_past_pads(film: DiscreteFilm) -> Iterator[tuple[int, int, Array, Array]]:
+    """What goes past each pad without load, at the state last placed.
+
+    Its pressure is held, so that its balance of mass is nobody's: no more goes through than its
+    narrowest place drags.
+
+    Yields
+    ------
+    first, end : int
+        Columns of its cells.
+    through : array (nz,)
+        Flow, in the units of `_kernels`.
+    share : array (end − first, nz)
+        Share of liquid of the cells.
+    """
+    idle = idle_columns(film)
+    if not idle.any():
+        return
+    rows = film.mesh.shape[1]
+    every = film.wedge * film.gap.coef[kernel.E, :, :rows] * film.mesh.area
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], idle, [False]]).astype(int)))
+    for first, end in edges.reshape(-1, 2).tolist():
+        faces = every[first : end + 1]
+        through = faces[np.abs(faces).argmin(axis=0), np.arange(rows)]
+        within = 0.5 * (faces[:-1] + faces[1:])
+        yield first, end, through, through / np.where(within == 0.0, 1.0, within)
 
 
 def _steps(film: DiscreteFilm, field: Array, edge: float, line: float) -> tuple[Array, Array]:

@@ -13,8 +13,12 @@ from loadflow.numerics.linked import LINKED, contracted
 outer = contracted(cache=True)
 """Of a function that Python calls; compiling it takes most of the time, so there are few."""
 
-inner = contracted(**LINKED)
-"""Of a function that compiled ones alone call."""
+inner = contracted(**LINKED, forceinline=False)
+"""Of a function that compiled ones alone call.
+
+Unless it is said, numba lets a function become a part of each that calls it if the one for which it
+is compiled first does so: what rubs in a thick shell took half a minute to compile.
+"""
 
 within = contracted(**LINKED, forceinline=True)
 """Of a function that takes another one: it becomes a part of each that calls it. Else the place of

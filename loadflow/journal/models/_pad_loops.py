@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from loadflow.journal.cavitation import LOAD
+from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._compile import inner, once, outer
-from loadflow.journal.models._composed_gap_kernels import has_gap, turn
+from loadflow.journal.models._composed_gap_kernels import DRAG, has_gap, turn
 from loadflow.journal.models._composed_kernels import (
     balance,
     magnitudes,
@@ -191,12 +191,35 @@ def come_and_go(work, pads, pad_work, q, speed):
     return changed
 
 
+@once
+def _unfilled(film, work, pads, pad_work):
+    """Shear that pads without a film have too much, after `summarise` of an uneven viscosity.
+
+    No more oil goes past them than their narrowest place drags, as on the grid.
+    """
+    total, drags, fill = 0.0, work.face[DRAG], work.state[FILL]
+    for j in range(pad_work.on.size):
+        for k in range(0 if pad_work.on[j] else film.nodes.slopes.shape[1]):
+            least = np.inf
+            for i in range(pads.face.size):
+                if pads.face[i] == j:
+                    least = min(least, drags[i, k])
+            for i in range(pads.cell.size):
+                if pads.cell[i] == j and fill[i, k] > 0.0:
+                    share = least / (0.5 * (drags[i - 1, k] + drags[i, k]))
+                    sheared = work.sheared[i, k] * film.uneven.shear[i, k]
+                    total += sheared * (1.0 - share / fill[i, k])
+    return total
+
+
 @inner
 def summarise_on_pads(film, work, pads, pad_work, q, wedge, rate, row):
     """`summarise`, with the drag on pads without a film, but not what these drag along."""
     for i in range(pads.cell.size):
         film.ring.groove[i] = pads.groove[i]
     summarise(film, work, q, wedge, rate, row)
+    if film.uneven.on:
+        row[at.SHEAR] -= _unfilled(film, work, pads, pad_work)
     hold_pads(film, pads, pad_work)
     row[at.FED] = fed(film, work, wedge)
 

@@ -33,6 +33,7 @@ def composes(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     """Whether a film has more than laminar flow in an aligned, smooth, rigid bore as it is cut."""
     effects = film.contact, film.shell, film.turbulence, film.supply
     more = any(effect is not None for effect in effects) or bool(bearing.relief)
+    more = more or bearing.pressure_between(film.edge_pressure) != film.edge_pressure
     return more or not line.straight or film.liquid.pressure_coefficient > 0.0
 
 

@@ -30,6 +30,7 @@ from loadflow.journal.models.composed_path import (
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.periodic import DEPTH, not_closed
+from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import Limits, is_small, rounding_level
 
@@ -49,10 +50,11 @@ def orbit(
     steps: Steps,
     begin: Callable[[], Array],
     viscosity: Thickness | None = None,
+    warm: Statics | None = None,
 ) -> tuple[dict[str, Any], dict[str, float]]:
     """Variables of the closed path over time, and its closure and periods.
 
-    `begin` and `viscosity` are those of `composed_path.orbit`.
+    `begin`, `viscosity` and `warm` are those of `composed_path.orbit`.
 
     Raises
     ------
@@ -70,7 +72,7 @@ def orbit(
     times = time[past]
     times[0] -= time[-1] - time[-2]
     given = bearing, options, times, force[past], speed[past], line.at(past), control
-    drive = Drive(*given, viscosity=viscosity)
+    drive = Drive(*given, viscosity=viscosity, warm=warm)
     march = march_of(drive, steps)
     period = _Period(march, steps)
     for level in march.levels:

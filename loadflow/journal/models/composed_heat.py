@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError, ValidityWarning
+from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.film_model import Film
@@ -29,8 +30,10 @@ from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.strip_film import SHARP, Made, StripFilm, Tried, with_heat
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
+from loadflow.journal.solvers.orbit_start import orbit_film
+from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
-from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance
+from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance, mean_heat
 from loadflow.journal.solvers.warm_rows import (
     heat_columns,
     in_grown_clearances,
@@ -196,8 +199,10 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
 
 def mean_around(
     bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
-) -> tuple[MeanHeat, Thickness]:
+) -> tuple[MeanHeat, Thickness, Statics | None]:
     """Temperatures of a series of loads, and the viscosity of its film.
+
+    On pads that tilt, whose films at rest are of the grid, also the film there.
 
     Raises
     ------
@@ -209,6 +214,8 @@ def mean_around(
     loadflow.errors.ValidityWarning
         Many of the loads have no film at rest.
     """
+    if bearing.has_pads:
+        return _mean_on_pads(bearing, options, force, speed, line, limits)
     around = _Around(bearing, options, force, speed, line, limits)
     level, equation, some = around.levels[0], around.equation, SeriesLoads.of(speed.size)
     made: list[Made] = []
@@ -233,4 +240,23 @@ def mean_around(
     def heat_of(last: Solution, cells: Array) -> Warmth:
         return equation.of(made, cells)
 
-    return in_balance(equation, film_of, heat_of, made, some), equation.viscosity
+    return in_balance(equation, film_of, heat_of, made, some), equation.viscosity, None
+
+
+def _mean_on_pads(
+    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
+) -> tuple[MeanHeat, Thickness, Statics]:
+    """The same by the films of the grid, on the columns of cells that lie alike on the pads."""
+    even = replace(options, grading="uniform")
+    statics, _ = orbit_film(bearing, even, force, speed, line)
+    heat = mean_heat(statics, force, speed, limits)
+    ring, mesh = build(bearing, even.isothermal(), speed, line).film.ring, statics.film.mesh
+    angle = np.arctan2(ring.sin, ring.cos)
+
+    def around(cells: Array) -> Array:
+        rows = [np.interp(angle, mesh.angle, row, period=2.0 * np.pi) for row in cells.T]
+        return np.stack(rows, axis=1)
+
+    across = cast("WarmGap", statics.gap).across_film
+    found = Thickness(mesh.z, around(across.flow), around(across.shear), around(across.drag))
+    return heat, found, statics

@@ -141,8 +141,10 @@ class ComposedFilm:
         return rows
 
     def cold(self) -> Array:
-        """Unknowns of a film at edge pressure, in grooves of a supply at theirs."""
-        pressure = np.full(self.work.u.shape, self.units.p_edge)
+        """Unknowns of a film at edge pressure, in grooves at theirs."""
+        edge, ring, inner = self.units.p_edge, self.film.ring, self.film.nodes.slopes.shape[1]
+        pressure = np.full(self.work.u.shape, edge)
+        pressure[ring.back == 0.0, :inner] = self.bearing.pressure_between(edge)
         put_in_grooves(self.units, self.film.held, pressure)
         return self.units.unknown_of(pressure)
 
@@ -355,7 +357,8 @@ def build(
         plain, points = (whole_width, POINTS) if whole else (half_width_nodes, HALF_POINTS)
         return plain(half, across or points[number], None if few is None else points[few])
 
-    more = 0 if resolves_relief(bearing, layout(0, None).z) else 1
+    flows_out = bearing.pressure_between(units.p_edge) != units.p_edge  # beside its ends, steeply
+    more = 0 if resolves_relief(bearing, layout(0, None).z) and not flows_out else 1
     nodes = layout(level + more, None if at_rest else more)
     ring = ring_of(units, 1.0 if whole else 2.0)
     if bearing.shape.segments:
@@ -406,7 +409,9 @@ def unknowns_on(
     end = float(here.units.unknown_of(np.array([here.units.p_edge]))[0]) if edge is None else edge
     moved = np.full(there.work.u.shape, end)
     moved[:, :many] += (unknowns[:, :few] - end) @ across.T
-    for number, (i, k) in enumerate(here.film.feeding.samples):  # as held, up to a bearing end
+    between = here.film.ring.back == 0.0
+    moved[between, :many] = unknowns[between, :1]  # as held, up to a bearing end
+    for number, (i, k) in enumerate(here.film.feeding.samples):
         moved[:, :many][there.film.held.grooves == number] = unknowns[i, k]
     return moved
 

@@ -19,6 +19,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
+from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -184,8 +185,11 @@ def first_on_pads(
     line: Line,
     limits: Limits,
     start: Array | None,
+    warm: Statics | None = None,
 ) -> tuple[FirstOnPads, ShapedGap]:
     """First state of a path, that of the grid; and the gap of that.
+
+    A film that is `warm` from place to place is given by its cells on the grid.
 
     Raises
     ------
@@ -194,7 +198,7 @@ def first_on_pads(
     OrbitStopped
         No film to start from.
     """
-    statics, _ = orbit_film(bearing, options, force[:1], speed[:1], line)
+    statics = warm or orbit_film(bearing, options, force[:1], speed[:1], line)[0]
     gap = cast("ShapedGap", statics.gap)
     first = orbit_start(statics, force[0], float(speed[0]), start, limits)
     place = np.zeros(4)

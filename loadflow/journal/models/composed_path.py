@@ -47,6 +47,7 @@ from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
 from loadflow.journal.solvers.load_stepping import TOUCHING
 from loadflow.journal.solvers.messages import touched
+from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped, stopped
 from loadflow.numerics.convergence import Limits
 
@@ -82,7 +83,8 @@ class State(NamedTuple):
 class Drive:
     """What drives a path, its limits, and its films, one for each level that has been asked for.
 
-    `viscosity` is that of the cells where it is uneven.
+    `viscosity` is that of the cells where it is uneven, `warm` the same film on the grid where pads
+    tilt.
     """
 
     bearing: JournalGeometry
@@ -94,6 +96,7 @@ class Drive:
     control: Limits
     films: dict[int, ComposedFilm] = field(default_factory=dict)
     viscosity: Thickness | None = None
+    warm: Statics | None = None
 
     @property
     def specific_load(self) -> Array:
@@ -298,7 +301,7 @@ class _OnPads(March):
         limits = replace(drive.control, max_iterations=2 * drive.control.max_iterations)
         film, line = drive.options.isothermal(), drive.line.at(np.array([0]))
         given = drive.bearing, film, drive.force, drive.speed, line
-        self.first, self.gap = first_on_pads(*given, limits, steps.start)
+        self.first, self.gap = first_on_pads(*given, limits, steps.start, drive.warm)
         self.tilts = np.zeros((drive.time.size, self.gap.pads.size))
         self.pads: dict[int, tuple[Pads, PadWork]] = {}
         self.tried = self.pads_at(self.levels[0])[1]  # at which the last steps were
@@ -382,11 +385,12 @@ def orbit(
     steps: Steps,
     begin: Callable[[], Array],
     viscosity: Thickness | None = None,
+    warm: Statics | None = None,
 ) -> dict[str, Any]:
     """Variables of the path over time.
 
     `begin` finds the first position (4,) where none is given and the film alone does not;
-    `viscosity` is that of `Drive`.
+    `viscosity` and `warm` are those of `Drive`.
 
     Raises
     ------
@@ -398,7 +402,8 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    drive = Drive(bearing, options, time, force, speed, line, control, viscosity=viscosity)
+    given = bearing, options, time, force, speed, line, control
+    drive = Drive(*given, viscosity=viscosity, warm=warm)
     march = march_of(drive, steps)
     model, rows = march.model, march.rows
     for level in march.levels:

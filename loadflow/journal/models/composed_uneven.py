@@ -81,7 +81,9 @@ class Thickness(NamedTuple):
         own = self.grown(apart, points)
         wider = aligned(np.zeros((2, len(own), lanes_for(points.size))))
         wider[0, :, : points.size], wider[1, :, : points.size] = own, _at_faces(own, width)
-        return Uneven(True, *told, True, wider[0], wider[1], self.grown(apart, beside))
+        # by rows as all others: of another order kernels would be compiled anew, for 40 s
+        there = np.ascontiguousarray(self.grown(apart, beside))
+        return Uneven(True, *told, True, wider[0], wider[1], there)
 
     def mean_growth(self, points: Array) -> Array:
         """Growth of the gap around on average at `points` across (l,), clearances."""

@@ -187,9 +187,9 @@ def _pairs(
     """What does not go with another part: name, value, whether that is there, words."""
     pads, growth = bearing.has_pads, getattr(film.heat, "growth", None)
     stored = _kind_of_heat(film, verb) == "slow_heat"
-    if film.rung == "reduced" and bearing.shape.segments:
-        pressure = bearing.shape.groove_pressure
-        at_ends = 'that of the bearing ends on rung = "reduced"'
+    if film.rung == "reduced" and not bearing.shape.grooves_between:
+        pressure = bearing.pressure_between(film.edge_pressure)
+        at_ends = 'that of the bearing ends beside an arc on rung = "reduced"'
         yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
     if film.rung == "reduced" and verb == "in_motion":
         uneven = not all(part.even_around for part in bearing.relief)
@@ -204,8 +204,6 @@ def _pairs(
         closed, given = bool(steps.periodic), '"given" on a closed path on rung = "reduced"'
         yield "step", "adaptive", closed and steps.step == "adaptive", given
     if verb == "in_motion":
-        one = "that of one temperature for pads in motion"
-        yield "heat", film.heat, pads and over_area, one
         one = "without capacity on a closed path"
         yield "heat", film.heat, stored and bool(steps.periodic), one
         free = stored and growth is not None and (pads or line.moment is not None)
@@ -245,7 +243,9 @@ def _beside_grooves(
         name = f"supply.grooves[{number}]"
         yield f"{name}.shape", groove.shape, groove.shape == "circle", f'"rectangle" {on_few}'
         apart, within = not on_one_segment(groove, segments, *cells), "that of a groove within one"
-        yield f"{name}.angle", groove.angle, apart, f"{within} segment of the bore {on_few}"
+        between = "what lies between them has shape.groove_pressure"
+        words = f"{within} segment of the bore {on_few}; {between}"
+        yield f"{name}.angle", groove.angle, apart, words
     moving = bearing.has_pads and verb == "in_motion"  # at rest they are of the grid
     yield "shape", bearing.shape, moving, f"one without pads beside a supply in motion {on_few}"
 

@@ -240,12 +240,14 @@ def _path(
         place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
         return place
 
-    over_area, viscosity, bare = None, None, options
+    over_area, viscosity, warm, bare = None, None, None, options
     if options.heat is not None and options.heat.over_area:
         many_steps = replace(control, max_iterations=2 * control.max_iterations)
         given = bearing, options, force, speed, line, many_steps
-        over_area, viscosity = composed_heat.mean_around(*given)
+        over_area, viscosity, warm = composed_heat.mean_around(*given)
         bare = options.isothermal()
+
+    driven = bearing, bare, time, force, speed, line, control, steps
 
     def told(values: dict[str, Any]) -> xr.Dataset:
         """The path of some values over time."""
@@ -256,15 +258,11 @@ def _path(
         check_period(time, force, speed, line)
         if not (bearing.shape.segments or bearing.relief or options.supply or not line.straight):
             check_half_speed_whirl(time, force, speed)
-        values, about = composed_closed.orbit(
-            bearing, bare, time, force, speed, line, control, steps, first_position, viscosity
-        )
+        values, about = composed_closed.orbit(*driven, first_position, viscosity, warm)
         return told(values).assign_attrs(about)
     effects = over_area is not None or composed.composes(bearing, options, line)
     if effects or Bore.of(bearing).pads:
-        values = composed_path.orbit(
-            bearing, bare, time, force, speed, line, control, steps, first_position, viscosity
-        )
+        values = composed_path.orbit(*driven, first_position, viscosity, warm)
         return told(values)
     film = units_of(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))

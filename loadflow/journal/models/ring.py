@@ -38,7 +38,7 @@ class Ring(NamedTuple):
         Δθ of the cells, and from the centre of each to that of the next one; to the edge of a
         groove.
     groove : array of bool (nx,)
-        Columns that are axial grooves; their pressure is that of the bearing ends.
+        Columns that are axial grooves, whose pressure stays.
     back : array (nx,)
         Δθ from where each place between two columns begins, its centre or the end of a groove, to
         the face behind it.
@@ -96,7 +96,8 @@ def units_of(bearing: JournalGeometry, options: Film, speed: Array) -> DiscreteF
     bare = replace(
         options, grading="uniform", inlet=None, contact=None, shell=None, turbulence=None
     )
-    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare)
+    between = bearing.pressure_between(options.edge_pressure)
+    film = build_film(bearing.diameter, bearing.width, bearing.relative_clearance, bare, between)
     film.set_scale(float(np.abs(speed).max()))
     return film
 

@@ -99,8 +99,28 @@ def solve_in_load_steps(
                 break
             step *= 1.5 if state.iterations < _STEPS_EACH // 2 else 1.0
     film.place(state.u, state.position)
+    if done and film.clearance_left(state.position) > APART:  # what was lost says nothing
+        film.place(u, place)
+        state = replace(state, u=u, position=place)
     missing = (1.0 - done) * math.hypot(*force[free]) / film.load_scale(force)
     return replace(state, converged=False, iterations=spent, residual=missing)
+
+
+def in_rigid_bore(
+    film: DiscreteFilm,
+    force: Array,
+    position: Array,
+    tolerance: float,
+    max_iterations: int,
+    effort: Effort,
+    free: slice | NDArray[np.int64] = EVERY,
+) -> Solution:
+    """As `solve_equilibrium`, in an elastic shell that is held rigid."""
+    film.relax(share=0.0)
+    start = film.start(), position
+    state = solve_equilibrium(film, force, *start, tolerance, max_iterations, free=free)
+    effort.take(film, state.iterations)
+    return state
 
 
 def solve_by_stiffness(
@@ -110,15 +130,16 @@ def solve_by_stiffness(
     tolerance: float,
     effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
+    rigid: Solution | None = None,
 ) -> Solution:
-    """As `solve_equilibrium`, from a rigid shell on, whose compliance grows to what it is."""
-    film.relax(share=0.0)
+    """As `solve_equilibrium`, from a `rigid` shell on, whose compliance grows to what it is."""
     most = film.newton_steps(_STEPS_EACH)
-    state = solve_equilibrium(film, force, film.start(), position, tolerance, 2 * most, free=free)
-    effort.take(film, state.iterations)
+    asked = force, position, tolerance, 2 * most, effort, free
+    state = rigid or in_rigid_bore(film, *asked)
+    film.relax(share=0.0)
     spent = state.iterations
     if not state.converged:
-        state = solve_from_held(film, force, position, tolerance, 2 * most, effort, free)
+        state = solve_from_held(film, *asked)
         spent += state.iterations
     share, step, left, closed = 0.0, _FIRST_SHARE, film.clearance_left(state.position), 0
     while state.converged and step >= _LEAST_SHARE * max(share, _FIRST_SHARE):
@@ -153,16 +174,17 @@ def solve_elastic_in_steps(
     tolerance: float,
     effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
+    rigid: Solution | None = None,
 ) -> Solution:
     """As `solve_equilibrium`, in an elastic shell: from a light load on, or from a rigid shell.
 
     Where asperities touch, the second comes first: it takes a third of the time. Both end with the
-    `effort`.
+    `effort`. What came of Newton's method in a `rigid` shell is not sought again.
     """
     asked = film, force, position, tolerance, effort, free
     by_shell: Solution | None = None
     if film.contact is not None:
-        by_shell = solve_by_stiffness(*asked)
+        by_shell = solve_by_stiffness(*asked, rigid)
         if by_shell.converged or effort.over:
             return by_shell
     by_load = solve_in_load_steps(*asked)

@@ -107,6 +107,11 @@ def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
     film.unload(gap.columns_of(np.setdiff1d(gap.pads, pads)))
 
 
+def columns_without_film(gap: ShapedGap, found: Solution) -> NDArray[np.bool_]:
+    """Columns of cells (nx,) of the pads that have no film in a solution."""
+    return gap.columns_of(np.setdiff1d(gap.pads, np.arange(gap.size)[found.free]))
+
+
 def _without(film: DiscreteFilm, gap: ShapedGap, start: Solution, pads: Rows) -> Solution:
     """`start` with no film on, and no tilt of, all pads but `pads`."""
     others = np.setdiff1d(gap.pads, pads)

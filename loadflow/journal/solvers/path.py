@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.solvers.effort import Effort
-from loadflow.journal.solvers.load_stepping import has_touched, meets
+from loadflow.journal.solvers.load_stepping import APART, has_touched, meets
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 
 if TYPE_CHECKING:
@@ -100,6 +100,10 @@ class _Path:
         still = 0.0 * position
         target = self.film.target(position, whole)
         weights = self.film.weights(position, still, target, still)
+        if self.film.elastic:
+            way = position, target
+            if self.film.step_share(u, linear.columns, weights, way, True) < 1.0:
+                return target, math.inf
         change = self.film.correct(u, linear.columns, weights)
         way = math.hypot(*(target - position)) / self.narrow(target)
         return target, max(change, way)
@@ -116,10 +120,14 @@ class _Path:
         step = stride * point.tangent
         ahead = point.position.copy()
         ahead[self.free] += step[:size]
-        if not self.gap.narrowest(ahead) > _LEFT * self.gap.narrowest(point.position):
+        if self.film.elastic:  # its shell opens on the way
+            self.film.place(point.u, point.position)
+        elif not self.gap.narrowest(ahead) > _LEFT * self.gap.narrowest(point.position):
             return None
         u, share = point.u.copy(), point.share + step[size]
-        position, _ = self.moved(u, point.linear, point.position, step[:size])
+        position, change = self.moved(u, point.linear, point.position, step[:size])
+        if not math.isfinite(change):
+            return None
         for number in range(1, _NEWTON + 1):
             linear = self.linearise(u, position)
             missing = self.first + share * self.change - linear.load[self.free]
@@ -138,6 +146,11 @@ class _Path:
         return None
 
 
+def _at_the_bore(film: DiscreteFilm, position: Array) -> bool:
+    """Whether the shaft at `position` meets the bore, rigid or not: the path ends there."""
+    return film.clearance_left(position) <= APART if film.elastic else meets(film, position)
+
+
 @np.errstate(over="ignore", invalid="ignore")  # of an iteration that diverges
 def solve_along_path(
     film: DiscreteFilm,
@@ -153,7 +166,7 @@ def solve_along_path(
     Parameters
     ----------
     film : DiscreteFilm
-        In a rigid bore.
+        In a bore that is rigid or gives way.
     force : array (m,)
         Generalised load, N.
     start : Solution
@@ -198,7 +211,7 @@ def solve_along_path(
                 effort.take(film, path.spent)
                 return replace(answer, iterations=path.spent)
         point = following
-        if not math.isfinite(float(point.tangent.sum())) or meets(film, point.position):
+        if not math.isfinite(float(point.tangent.sum())) or _at_the_bore(film, point.position):
             break
         most = max(most, point.share) if point.share < 1.0 else most
         stride = min(2.0 * stride, _LONGEST) if number < _FEW else stride
@@ -232,4 +245,6 @@ def solve_beyond_fold(
     else:
         return reached
     found = solve_along_path(film, force, held, *limits, effort, free)
-    return found if found.converged or has_touched(film, found) else reached
+    film.place(found.u, found.position)
+    ends = has_touched(film, found) or film.clearance_left(found.position) <= APART
+    return found if found.converged or ends else reached

@@ -25,13 +25,14 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.crowding import may_double, other_cells
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.estimate import NEAR, first_position
 from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
     APART,
     ended,
-    has_touched,
+    in_rigid_bore,
     solve_by_approach,
     solve_by_speed,
     solve_elastic_in_steps,
@@ -51,13 +52,9 @@ Rows = NDArray[np.int64]
 
 _PAD_ROUNDS = 8  # solutions in which pads may come under load, or lose theirs
 _FIRST = 2  # Newton steps of a film on pads before the shaft moves
-_MOST_AROUND = (120, 240)  # cells, of a shell that gives way all over, and where it is pressed
 _CROWDED = 2  # meshes that are tried beside the one asked for
 _KEPT = 0.6  # of the effort in an elastic shell, for other cells: on some there is no film at all
 _STANDING = 0.4  # of the effort, that is kept for the way from a shaft that stands on asperities
-_SAME = 0.02  # angle, rad, by which the place of the narrowest gap must have moved for another
-_HOPELESS = 0.8  # of the load, missing as the shaft touches: on no mesh the film carries it
-_NARROW = 0.2  # narrowest gap, in clearances, above which no mesh but that is tried
 _LONG = 0.03  # step of the load below which its path is followed instead
 
 
@@ -142,7 +139,7 @@ class Statics:
         to `meshes` others, as long as the `effort` lasts.
         """
         refine, effort = self.can_refine, effort or Effort.of(self.film, control.max_iterations)
-        others = self.film.elastic and meshes > 0 and self._may_double(omega)
+        others = self.film.elastic and meshes > 0 and may_double(self.options, omega)
         effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
         effort.kept = 0.0
@@ -151,46 +148,12 @@ class Statics:
             return self, solution
         if refine:
             return self.finer.resolve(index, load, omega, None, control, meshes, effort)
-        crowded = self._crowded(solution) if meshes and not effort.over else None
-        if crowded is None:
+        given = self.film, self.gap, self.options, self.crowd, solution
+        cells = other_cells(*given) if meshes and not effort.over else None
+        if cells is None:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
-        return crowded.resolve(index, load, omega, None, control, left, effort)
-
-    def _may_double(self, omega: float) -> bool:
-        """Whether a film in an elastic shell may have twice the cells around."""
-        shell, around = self.options.shell, self.options.cells[0]
-        if omega == 0.0 or shell is None or not shell.any_grid:
-            return False
-        return 2 * around <= _MOST_AROUND[shell.local]
-
-    def _crowded(self, solution: Solution) -> Statics | None:
-        """The film on cells that crowd where the gap of a `solution` closes; None: as before."""
-        if self.gap.axisymmetric:  # grooves hold the cells in their places
-            fed = self.options.supply is not None and not self.film.dry(solution.u)
-            return self._on(self.options, ()) if fed and self.film.speed != 0.0 else None
-        if self.film.elastic:
-            return self._on_more_cells(solution)
-        if not np.isfinite(solution.position).all():
-            return None
-        if has_touched(self.film, solution) and solution.residual > _HOPELESS:
-            return None
-        crowd, before = self.gap.closing(solution.position, _NARROW), self.crowd or ()
-        same = len(crowd) == len(before) and np.allclose(crowd, before, atol=_SAME)
-        return None if same else self._on(self.options, crowd)
-
-    def _on_more_cells(self, solution: Solution) -> Statics | None:
-        """The film in an elastic shell on twice the cells around; None where that is no help.
-
-        Where a shell gives way by much on a cell, its gap follows the pressure from cell to cell
-        so fast that the film has no answer on cells as long.
-        """
-        around, across = self.options.cells
-        if not self._may_double(self.film.speed) or self.film.dry(solution.u):
-            return None
-        if self.film.clearance_left(solution.position) <= APART:
-            return None
-        return self._on(replace(self.options, grid=(2 * around, across)))
+        return self._on(*cells).resolve(index, load, omega, None, control, left, effort)
 
     def solve(
         self,
@@ -223,17 +186,19 @@ class Statics:
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
-            fixed, free = not (film.elastic or gap.pads.size), self._free(pads)
-            kept, turns = effort.kept, fixed and stands(film)
-            effort.kept += _STANDING * (effort.left - kept) * turns
-            found = self._from_standing(*given) if film.elastic and stands(film) else None
-            solution = found or self._in_steps(force, estimate, pads, limits, effort)
-            if fixed and self._has_path and not ended(film, solution, effort):
+            alone, free, soft = not gap.pads.size, self._free(pads), film.elastic
+            kept, turns, found, rigid = effort.kept, alone and stands(film), None, None
+            if turns and soft:  # it is found in a rigid bore, or stands
+                rigid = in_rigid_bore(film, force, estimate, *limits, effort, free)
+                found = None if rigid.converged else self._from_standing(*given)
+            effort.kept += _STANDING * (effort.left - kept) * (turns and not soft)
+            solution = found or self._in_steps(force, estimate, pads, limits, effort, rigid)
+            if alone and self._has_path and not ended(film, solution, effort):
                 solution = solve_beyond_fold(film, force, estimate, *limits, effort, solution, free)
-            if fixed and not ended(film, solution, effort):
+            if alone and not (soft or ended(film, solution, effort)):
                 solution = self._by_other_loads(force, estimate, limits, effort) or solution
             cut, effort.kept = effort.over, kept
-            if turns and not ended(film, solution, effort):
+            if turns and not (soft or ended(film, solution, effort)):
                 solution = self._from_standing(*given) or solution
         found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
         return replace(found, given_up=(cut or effort.over) and not found.converged)
@@ -333,7 +298,8 @@ class Statics:
     @property
     def _has_path(self) -> bool:
         """Whether equilibria can be followed along the path of the load."""
-        return not (self.film.pockets.free.size or self.film.speed == 0.0)
+        film = self.film
+        return film.speed != 0.0 and (film.elastic or not film.pockets.free.size)
 
     @property
     def _shaped(self) -> ShapedGap:
@@ -435,13 +401,19 @@ class Statics:
         return solve_from_other_loads(newton, limits[1], effort)
 
     def _in_steps(
-        self, force: Array, estimate: Array, pads: Rows, limits: tuple[float, int], effort: Effort
+        self,
+        force: Array,
+        estimate: Array,
+        pads: Rows,
+        limits: tuple[float, int],
+        effort: Effort,
+        rigid: Solution | None,
     ) -> Solution:
-        """Equilibrium where Newton finds none at once."""
+        """Equilibrium where Newton finds none at once; `rigid` as of `solve_elastic_in_steps`."""
         film, free = self.film, self._free(pads)
         given = film, force, estimate, *limits, effort, free
         if film.elastic:
-            return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free)
+            return solve_elastic_in_steps(film, force, estimate, limits[0], effort, free, rigid)
         if pads.size:
             shaft = np.arange(self.gap.size)[self.shaft]
             return search_on_pads(film, self._shaped, force, estimate, shaft, pads, *limits, effort)

@@ -19,6 +19,7 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.heat import HOTTEST
 from loadflow.journal.solvers.newton import Solution, no_film
+from loadflow.journal.solvers.pads import columns_without_film
 from loadflow.journal.solvers.search import Search
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.warm import FilmOf, HeatOf, WarmFilm, coupled, energy_of, no_warmth
@@ -217,7 +218,10 @@ def mean_heat(statics: Statics, loads: Array, speeds: Array, control: Limits) ->
         return replace(worst, iterations=spent)
 
     def heat_of(last: Solution, cells: Array) -> Warmth:
-        films = [(one.u, one.position, float(speeds[index])) for index, one in found.items()]
+        films = [
+            (one.u, one.position, float(speeds[index]), columns_without_film(equation.gap, one))
+            for index, one in found.items()
+        ]
         return equation.solve_mean(films, cells)
 
     return in_balance(equation, film_of, heat_of, found, some)

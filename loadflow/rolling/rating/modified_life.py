@@ -39,7 +39,11 @@ _SHAPE: dict[str, tuple[float, float, float, float]] = {
     "thrust-ball": (0.83, 1 / 3, -9.3, 3.0),
     "thrust-roller": (1.0, 0.4, -9.185, 2.5),
 }
-_A1 = {0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25}
+_A1 = {
+    0.90: 1.0, 0.95: 0.64, 0.96: 0.55, 0.97: 0.47, 0.98: 0.37, 0.99: 0.25, 0.992: 0.22,
+    0.994: 0.19, 0.996: 0.16, 0.998: 0.12, 0.999: 0.093, 0.9992: 0.087, 0.9994: 0.080,
+    0.9995: 0.077,
+}  # fmt: skip
 
 # ISO 281 annex A: e_C = min(a κ^0.68 D_pw^0.55, 1) (1 - b/D_pw^(1/3)), D_pw in mm
 _CLEANLINESS = {
@@ -210,7 +214,13 @@ def life_factor(
 
 
 def reliability_factor(reliability: float = 0.90) -> float:
-    """Life factor a₁ for a reliability of 90, 95, 96, 97, 98 or 99 %, ISO 281 table 12.
+    """Life factor a₁ of ISO 281 table 12.
+
+    Parameters
+    ----------
+    reliability : float
+        0.90, 0.95, 0.96, 0.97, 0.98, 0.99, 0.992, 0.994, 0.996, 0.998, 0.999, 0.9992, 0.9994 or
+        0.9995.
 
     Raises
     ------
@@ -339,7 +349,7 @@ def modified_life(
     load, speed : array_like
         Dynamic equivalent (reference) load, N, and rad/s.
     reliability : float
-        0.90 … 0.99.
+        One of those of `reliability_factor`, 0.90 … 0.9995.
     **work
         The further arguments of `life_modification`, which also tells κ and which limits act.
 

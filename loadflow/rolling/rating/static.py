@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from loadflow.rolling.contacts import row_sides
 from loadflow.verdict import Verdict
 
 if TYPE_CHECKING:
@@ -54,8 +55,8 @@ def static_overload(
     """Static equivalent load over the static capacity of a bearing: above 1 it is overloaded.
 
     With the factors X₀ and Y₀ of ISO 76: of radial bearings P₀ = F_r at least; of slewing bearings
-    as `static_load_slewing`, those of three rows by their thrust rows. Which row or roller carries
-    most is left to `RollingEquilibrium.static_safety`.
+    as `static_load_slewing`, those of three rows by their thrust rows. Of more than two facing rows
+    those of two. Which row or roller carries most is left to `RollingEquilibrium.static_safety`.
 
     Parameters
     ----------
@@ -84,13 +85,16 @@ def static_overload(
 
 
 def _radial_factors(bearing: RollingBearing) -> tuple[float, float]:
-    """X₀ and Y₀ of a radial bearing, ISO 76."""
+    """X₀ and Y₀ of a radial bearing, ISO 76: rows in tandem have those of one row."""
     angle, rows = bearing.nominal_angle, getattr(bearing, "rows", 1)
-    if bearing.kind == "ball":
-        if angle == 0.0:
-            return 0.6, 0.5
-        return 0.5 * rows, rows * float(np.interp(math.degrees(angle), *_BALLS))
-    return 0.5 * rows, 0.22 * rows / math.tan(angle) if angle else 0.0
+    if angle == 0.0:
+        return (0.6, 0.5) if bearing.kind == "ball" else (1.0, 0.0)
+    sides = row_sides(rows, getattr(bearing, "arrangement", "back-to-back"))
+    alike = min(sides.count(1.0), sides.count(-1.0))  # rows that carry a thrust; 0: all do
+    share = rows / alike if alike else 1.0
+    ball = bearing.kind == "ball"
+    y0 = float(np.interp(math.degrees(angle), *_BALLS)) if ball else 0.22 / math.tan(angle)
+    return (1.0 if alike else 0.5), y0 * share
 
 
 def verdicts(

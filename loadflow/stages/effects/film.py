@@ -126,7 +126,7 @@ def _shell(at: Situation) -> Sizes:
 
     Without a shell, by a wall of steel of `WALL`.
 
-    The shares of it in each answer are those of docs/journal.md, "Elastic shell".
+    The shares of it in each answer are those of docs/journal-shell.md.
     """
     shell = at.scene.journal.shell
     modulus = getattr(shell, "modulus", STEEL)

@@ -18,9 +18,9 @@ COSTS = {
     "growth": {"reduced": (3.1, 1.3), "grid": (1.2, 1.0)},
 }
 """Time of a film with an effect over that without, at rest and in motion, by rung: measured by
-``python -m benchmarks.references.film_effects`` and with ``--costs``; docs/journal.md. Two of them
-together cost more than their product on "grid", less on "reduced". Of a shell that gives way all
-over it is the mean of a thick cylinder and a housing."""
+``python -m benchmarks.references.film_effects`` and with ``--costs``; docs/journal-numerics.md. Two
+of them together cost more than their product on "grid", less on "reduced". Of a shell that gives
+way all over it is the mean of a thick cylinder and a housing."""
 
 
 def cost_of(name: str) -> Callable[[Scene], float]:

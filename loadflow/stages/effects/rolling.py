@@ -22,7 +22,7 @@ SECTION_SIDE = 2.4
 """Width of a ring's section over the diameter of its elements, where none is stated."""
 
 ROLLER_SIZES = {"maximum force": 0.21, "maximum pressure": 0.05, "life": 0.28}
-"""What free rings change of the tapered bearing of `pipelines/dlc_1_1.toml` (docs/rolling.md)."""
+"""What free rings change of the tapered bearing of `pipelines/dlc_1_1.toml` (docs/rings.md)."""
 
 PRESSED = 3e-4
 """Approach of a roller over its diameter that its stiffness is taken at, of about 1 GPa."""
@@ -102,7 +102,7 @@ def _rings_at_most(scene: Scene) -> float:
 
     The indicator is that of free rings. Walls took it from 21 % of the largest force to 13 % and
     less, and from 28 % of the life to 5 %; short rings, which tilt, lost more, and so did spherical
-    rollers (docs/rolling.md). In a stop (DLC 4.2) held ones lost 15 % of the force, 1.16 times what
+    rollers (docs/rings.md). In a stop (DLC 4.2) held ones lost 15 % of the force, 1.16 times what
     is indicated (docs/physics.md).
     """
     return 1.25 if all(map(_is_firm, scene.rolling.bearings.values())) else UNSURE
