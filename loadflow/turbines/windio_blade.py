@@ -27,7 +27,7 @@ def reynolds_number(source: Source, rotor: dict[str, Any]) -> float | None:
     )
 
 
-def polar_of(entry: dict[str, Any], reynolds: float | None) -> tuple[dict[str, Any], list[float]]:
+def polar_of(entry: dict[str, Any], reynolds: float | None) -> tuple[Any, list[float]]:
     """Polar of an airfoil's first configuration nearest to a Reynolds number, and all it has.
 
     Without one that of the largest. Sets that tell no Reynolds number: the first of them.
