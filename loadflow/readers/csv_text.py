@@ -31,8 +31,8 @@ def read_csv(
     r"""Read one CSV file.
 
     The first row names the columns with their units: ``time [s], speed [rpm], hub_force_x [kN],
-    …``. Columns may be separated by comma, semicolon or tab; lines beginning with ``#`` are
-    comments.
+    …``. Columns may be separated by comma, semicolon or tab, where a decimal comma is read, too;
+    lines beginning with ``#`` are comments.
 
     Parameters
     ----------
@@ -89,11 +89,12 @@ def read_table(path: Path) -> Table:
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     text = read_text(path)
-    columns, separator = _columns(text, path)
+    columns, separator, decimal = _columns(text, path)
     try:
         frame = pd.read_csv(
             StringIO(text),
             sep=separator,
+            decimal=decimal,
             comment="#",
             header=0,
             names=range(len(columns)),
@@ -113,14 +114,18 @@ def read_table(path: Path) -> Table:
     return replace(table, stamps=table.series("time", "s"))
 
 
-def _columns(text: str, path: Path) -> tuple[list[str], str]:
-    """Return the fields of the heading, and the separator, which it has most of."""
+def _columns(text: str, path: Path) -> tuple[list[str], str, str]:
+    """Return the fields of the heading, the separator, which it has most of, and the decimal sign.
+
+    A comma among the numbers is a decimal one unless it separates.
+    """
     lines = (line for line in text.splitlines() if line.strip() and line[0] != "#")
     heading = next(lines, "")
     if not heading:
         raise InputError(f"{path}: the file is empty")
     separator = max(",;\t", key=heading.count)
-    return heading.strip().split(separator), separator
+    decimal = "," if separator != "," and any("," in line for line in lines) else "."
+    return heading.strip().split(separator), separator, decimal
 
 
 def _heading(column: str, path: Path) -> tuple[str, str]:

@@ -19,7 +19,7 @@ from loadflow.errors import InputError
 from .checks import Array, require
 from .description import turbine_from
 from .schema import Turbine
-from .windio_blade import blade_table, foil_table
+from .windio_blade import blade_table, foil_table, reynolds_number
 from .windio_paths import SCALARS, Source
 from .windio_tower import bending_table
 
@@ -160,6 +160,12 @@ def _described(
     beside: Mapping[str, Any],
 ) -> dict[str, Any]:
     """The turbine as its TOML file would have it, without what the source lacks."""
+    orientation = str(source.path("assembly.rotor_orientation") or "upwind")
+    if orientation.lower() != "upwind":
+        raise InputError(
+            f"assembly.rotor_orientation = {orientation!r} is not allowed: rotors stand upwind of "
+            "the tower here"
+        )
     found: dict[str, Any] = {}
     for key in SCALARS:
         _put(found, key, source.number(key))
@@ -168,7 +174,7 @@ def _described(
     rotor = found.setdefault("rotor", {})
     assumed: list[str] = []
     _geometry(source, found)
-    found["airfoils"], thicknesses = foil_table(source)
+    found["airfoils"], thicknesses = foil_table(source, reynolds_number(source, rotor), assumed)
     blade = blade_table(source, rotor, thicknesses, sections, damping)
     _put(found, "blade", blade or None)
     found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}

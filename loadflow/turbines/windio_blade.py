@@ -9,23 +9,58 @@ import numpy as np
 from .checks import Array
 from .windio_paths import Source
 
+AIR_VISCOSITY = 1.46e-5  # m²/s, kinematic, at 15 °C and sea level
 _DEGREE = np.pi / 180
 _UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
 """Places of the 21 numbers of a symmetric matrix in the ontology of WISDEM."""
 
 
-def foil_table(source: Source) -> tuple[dict[str, Any], dict[str, float]]:
-    """Polars by name, and the relative thickness of each; angles in radians."""
+def reynolds_number(source: Source, rotor: dict[str, Any]) -> float | None:
+    """Reynolds number of the chord at three quarters of the radius at rated speed, if told."""
+    entry = source.path("components.blade") or {}
+    chord = entry.get("outer_shape", entry.get("outer_shape_bem", {})).get("chord")
+    speed, radius = source.number("rated rotor speed"), rotor.get("radius")
+    if chord is None or speed is None or radius is None:
+        return None
+    return float(
+        0.75 * radius * speed * np.interp(0.75, chord["grid"], chord["values"]) / AIR_VISCOSITY
+    )
+
+
+def polar_of(entry: dict[str, Any], reynolds: float | None) -> tuple[Any, list[float]]:
+    """Polar of an airfoil's first configuration nearest to a Reynolds number, and all it has.
+
+    Without one that of the largest. Sets that tell no Reynolds number: the first of them.
+    """
+    polars = entry["polars"]
+    sets = polars[0].get("re_sets", polars)
+    if not all(polar.get("re") for polar in sets):
+        return sets[0], []
+    known = [float(polar["re"]) for polar in sets]
+    near = min(known, key=lambda number: abs(np.log(number / (reynolds or max(known)))))
+    return sets[known.index(near)], known
+
+
+def foil_table(
+    source: Source, reynolds: float | None, assumed: list[str]
+) -> tuple[dict[str, Any], dict[str, float]]:
+    """Polars by name, and the relative thickness of each; angles in radians.
+
+    Of several Reynolds numbers that nearest to `reynolds`, which is told in `assumed`.
+    """
     foils: dict[str, Any] = {}
     thickness: dict[str, float] = {}
     for entry in source.path("airfoils") or []:
         name = str(entry["name"])
         given = entry.get("rthick", entry.get("relative_thickness"))
-        polar = entry["polars"][0]
-        if "re_sets" in polar:
-            sets, unit, names = polar["re_sets"][0], _DEGREE, ("cl", "cd", "cm")
+        sets, known = polar_of(entry, reynolds)
+        if len(set(known)) > 1:
+            choices = ", ".join(f"{number:.3g}" for number in sorted(known))
+            assumed.append(f"airfoils.{name}: polar of Re = {sets['re']:.3g}, of {choices}")
+        if "cl" in sets:
+            unit, names = _DEGREE, ("cl", "cd", "cm")
         else:
-            sets, unit, names = polar, 1.0, ("c_l", "c_d", "c_m")
+            unit, names = 1.0, ("c_l", "c_d", "c_m")
         lift, drag, moment = (sets.get(key) for key in names)
         grid = np.union1d(lift["grid"], drag["grid"])
         angle = np.clip(grid * unit, -np.pi, np.pi)

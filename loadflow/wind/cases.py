@@ -63,6 +63,8 @@ class LoadCase:
         Realisations per mean speed and yaw error (1 where the wind is deterministic).
     yaw_errors : tuple of float
         Mean yaw errors, degrees.
+    steady_yaw_errors : tuple of float
+        Those in the steady variant of the extreme wind, degrees.
     duration : float
         Length of a series, s.
     gust_time : float
@@ -89,6 +91,7 @@ class LoadCase:
     duration: float = 600.0
     gust_time: float = 50.0
     event_delays: tuple[float, ...] = (0.0,)
+    steady_yaw_errors: tuple[float, ...] = (-15.0, 15.0)
 
     @property
     def turbulent(self) -> bool:
@@ -156,8 +159,10 @@ LOAD_CASES = {
                  duration=100.0),
         LoadCase("6.1", _PARKED, "EWM50", "50-year", "U", "N", ("parked",), 6, (-8.0, 8.0)),
         # without the grid the turbine cannot yaw into the wind
-        LoadCase("6.2", _PARKED, "EWM50", "50-year", "U", "A", ("parked",), 1, _ALL_ROUND),
-        LoadCase("6.3", _PARKED, "EWM1", "1-year", "U", "N", ("parked",), 6, (-20.0, 20.0)),
+        LoadCase("6.2", _PARKED, "EWM50", "50-year", "U", "A", ("parked",), 1, _ALL_ROUND,
+                 steady_yaw_errors=_ALL_ROUND),
+        LoadCase("6.3", _PARKED, "EWM1", "1-year", "U", "N", ("parked",), 6, (-20.0, 20.0),
+                 steady_yaw_errors=(-30.0, 30.0)),
         LoadCase("6.4", _PARKED, "NTM", "parked", "F", "F", ("idling",), 6),
         LoadCase("7.1", "parked with fault", "EWM1", "1-year", "U", "A", ("parked, blade stuck",),
                  6),

@@ -137,7 +137,7 @@ def conditions(
     duration : float, optional
         Length instead of that of the load case, s.
     steady : bool
-        The steady extreme wind (2.6) with yaw errors of ±15° instead of the turbulent one.
+        The steady extreme wind (2.6) with its yaw errors instead of the turbulent one.
 
     Returns
     -------
@@ -266,7 +266,7 @@ def _choices(
     row: LoadCase, yaw_errors: Sequence[float] | None, azimuths: Sequence[float], steady: bool
 ) -> list[tuple[str, float, float, float]]:
     """Variant, delay of the event, azimuth and yaw error that an index stands for."""
-    degrees = (-15.0, 15.0) if steady else row.yaw_errors
+    degrees = row.steady_yaw_errors if steady else row.yaw_errors
     yaws = [radians(y) for y in degrees] if yaw_errors is None else list(yaw_errors)
     around = azimuths[:1] if row.turbulent and not steady else azimuths
     return list(product(VARIANTS.get(row.wind, ("",)), row.event_delays, around, yaws))

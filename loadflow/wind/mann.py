@@ -2,8 +2,8 @@
 
 Its velocity is incompressible and sheared: u and w are correlated, and what is higher up comes
 earlier. Spectral tensor with Γ = 3.9, l = 0.8 Λ1 and σ_iso = 0.55 σ1 (Annex B in edition 3, C in
-edition 4). A grid point has the mean over its cell, so that a coarse grid lacks high frequencies:
-cells of 7 m lose 60–70 % of the energy between 0.5 and 5 Hz.
+edition 4). The box has the wavenumbers that its grid resolves, up to π over the spacing in each
+direction, neither averaged over cells nor folded: a coarse grid lacks high frequencies.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from math import gamma as gamma_function
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_one_of
@@ -99,9 +99,9 @@ def mann_box(
     stencil = _stencil(MANN_LENGTH * scale, gamma, cells, steps)
     number = int(as_sequence(seed).generate_state(1, np.uint64)[0])
     strength = dissipation(ISOTROPIC_SIGMA * sigma, MANN_LENGTH * scale)
-    wind = stencil.turbulence(strength, number, parallel=False)
+    spectra = stencil.partial_turbulence(strength, number, False)
     # the box drifts downwind: its far end comes first
-    u, v, w = (np.ascontiguousarray(part[::-1]) for part in (wind.U, wind.V, wind.W))
+    u, v, w = (np.ascontiguousarray(_in_space(part, cells)[::-1]) for part in spectra)
     if scaling == "hub" and sigma > 0:
         i, j = np.argmin(abs(lines_y)), np.argmin(abs(lines_z - hub_height))
         factor = np.float32(sigma / u[:, i, j].std(dtype=float))
@@ -113,6 +113,24 @@ def dissipation(sigma_iso: float, length: float) -> float:
     """α ε^(2/3) of von Kármán's energy spectrum with variance σ_iso² per component, m^(4/3)/s²."""
     shape = gamma_function(5 / 2) * gamma_function(1 / 3) / gamma_function(17 / 6) / 2
     return 1.5 * sigma_iso**2 / (shape * length ** (2 / 3))
+
+
+def _in_space(spectrum: NDArray[np.complex64], cells: tuple[int, int, int]) -> NDArray[np.float32]:
+    """Velocity of the box from Fourier coefficients of the generator, with the tensor's variance.
+
+    Two weights of the generator (mannrs 2.0, hence its upper bound in the extra) are mended. It
+    scales by 2 (count // 2 + 1) where the transform over z has `count` places. And its coefficients
+    of k3 = 0 and of the highest k3 are independent for ±(k1, k2): a real field keeps half of their
+    power, elsewhere all of it.
+    """
+    from scipy.fft import irfftn
+
+    count = 2 * (spectrum.shape[2] - 1)
+    weights = np.full(spectrum.shape[2], count / (count + 2), np.float32)
+    weights[[0, -1]] *= np.sqrt(np.float32(2))
+    shape = (*spectrum.shape[:2], count)
+    nx, ny, nz = cells  # the rest keeps far edges of the box from being neighbours
+    return irfftn(spectrum * weights, s=shape, overwrite_x=True)[:nx, :ny, :nz]
 
 
 @lru_cache(maxsize=4)
@@ -131,4 +149,4 @@ def _stencil(
         ) from error
     sizes = (count * step for count, step in zip(cells, steps))
     shape = dict(zip(("Lx", "Ly", "Lz", "Nx", "Ny", "Nz"), (*sizes, *cells)))
-    return Stencil(L=length, gamma=gamma, **shape).build(parallel=False)
+    return Stencil(L=length, gamma=gamma, **shape).build(parallel=False).stencil

@@ -39,6 +39,15 @@ def test_columns_arrive_in_si_units(tmp_path, separator):
     assert set(series.data_vars) == {"speed", "wind", "hub_force", "hub_moment"}
 
 
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_decimal_comma_is_read_where_it_does_not_separate(tmp_path, separator):
+    path = tmp_path / "a.csv"
+    values = write(
+        path, separator=separator, change=lambda rows: [row.replace(".", ",") for row in rows]
+    )
+    np.testing.assert_allclose(read_csv(path).speed, values[:, 1] * np.pi / 30, rtol=1e-6)
+
+
 def test_columns_of_other_names_and_signs(tmp_path):
     path = tmp_path / "a.csv"
     values = write(path, [h.replace("hub_force_y", "Fy right") for h in HEADING])

@@ -128,6 +128,15 @@ def test_effective_size_of_exponentially_correlated_noise():
     assert effective_size(np.ones((1, 50))) == 50
 
 
+def test_effective_size_of_few_records_is_right_on_average():
+    """1000 means of six records scatter by 1 %; the reciprocal of chi-squared would add 9 %."""
+    x = ar1(np.random.default_rng(3), (6000, 600), DT, 3 * DT)
+    rho = np.exp(-1 / 3)
+    due = 600 * (1 - rho) / (1 + rho)
+    sizes = [effective_size(x[i : i + 6]) for i in range(0, 6000, 6)]
+    assert np.mean(sizes) == pytest.approx(due, rel=0.04)
+
+
 def test_equivalence_is_shown_only_where_the_data_can_show_it():
     rng = np.random.default_rng(2)
     fast, slow = ar1(rng, (4, N), DT, 0.1) + 20, ar1(rng, (4, N), DT, 20.0) + 20

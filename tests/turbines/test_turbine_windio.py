@@ -1,6 +1,8 @@
 """Turbines from windIO, blended airfoils, computed modes, and the turbines made from them."""
 
+import copy
 import importlib.resources
+import json
 
 import numpy as np
 import pytest
@@ -51,6 +53,37 @@ def test_the_shipped_iea_15mw_is_what_windio_says(read):
             )
             assert np.abs(difference).max() < 0.02  # resampled to whole degrees
     assert read.frequencies == {}
+
+
+@pytest.fixture
+def document(example):
+    yaml = pytest.importorskip("yaml")
+    return yaml.load(example.read_text(), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
+
+
+def written(document, path):
+    path.write_text(json.dumps(document))  # JSON is YAML
+    return path
+
+
+@pytest.mark.parametrize(("first", "wanted"), [(1e6, 1e7), (4e7, 1e7)])
+def test_polars_of_the_nearest_reynolds_number_are_read(document, read, tmp_path, first, wanted):
+    """0.75 × 120.7 m × 0.79 rad/s × 3.3 m / 1.46e-5 m²/s is 1.6e7; polars of 1e7 are nearest."""
+    foil = next(foil for foil in document["airfoils"] if foil["name"] == "FFA-W3-211")
+    (right,) = foil["polars"][0]["re_sets"]
+    wrong = copy.deepcopy(right)
+    wrong["re"], wrong["cl"]["values"] = first, [0.5 * x for x in right["cl"]["values"]]
+    foil["polars"][0]["re_sets"] = [wrong, right]
+    found = from_windio(written(document, tmp_path / "two.yaml"))
+    np.testing.assert_allclose(found.airfoils["FFA-W3-211"].lift, read.airfoils["FFA-W3-211"].lift)
+    (said,) = [text for text in found.assumed if text.startswith("airfoils")]
+    assert f"FFA-W3-211: polar of Re = {wanted:.3g}, of " in said
+
+
+def test_a_downwind_rotor_is_refused(document, tmp_path):
+    document["assembly"]["rotor_orientation"] = "Downwind"
+    with pytest.raises(InputError, match="rotor_orientation = 'Downwind' is not allowed"):
+        from_windio(written(document, tmp_path / "down.yaml"))
 
 
 def test_the_lowest_pitch_of_a_windio_file_is_that_of_the_shipped_turbine(read):

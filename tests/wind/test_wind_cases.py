@@ -224,3 +224,14 @@ def test_coherent_gust_of_both_signs():
 def test_nonsense_is_refused(call, message):
     with pytest.raises(InputError, match=message):
         call()
+
+
+def test_steady_storms_come_from_where_their_turbulent_ones_may():
+    """Without the grid from all sides; ±15° otherwise and ±30° where the yaw error is extreme."""
+    found = {
+        dlc: np.degrees([c.yaw_error for c in conditions(dlc, NREL_5MW, steady=True)])
+        for dlc in ("6.1", "6.2", "6.3")
+    }
+    np.testing.assert_allclose(found["6.1"], [-15.0, 15.0])
+    np.testing.assert_allclose(found["6.2"], np.arange(-165.0, 181.0, 15.0))
+    np.testing.assert_allclose(found["6.3"], [-30.0, 30.0])
