@@ -143,6 +143,17 @@ def films(scene):
     return _FILMS[key]
 
 
+_COLLARS = {}
+
+
+def collars(scene):
+    """The films of thrust bearings, likewise."""
+    key = scene.model_dump_json(exclude={"thrust": {"bearings": {"__all__": {"limits"}}}})
+    if key not in _COLLARS:
+        _COLLARS[key] = thrust.films(scene, ONE, inputs(scene))
+    return _COLLARS[key]
+
+
 def _journal(scene):
     if any(scene.journal.at(name).seat is not None for name in scene.journal.bearings):
         yield make_plan(scene).errors["journal.film"]
@@ -167,7 +178,7 @@ def _rolling(scene):
 def _thrust(scene):
     if any(one.seat is not None for one in scene.thrust.collars.values()):
         yield make_plan(scene).errors["thrust.film"]
-    tree = thrust.films(scene, ONE, inputs(scene))
+    tree = collars(scene)
     yield tree
     yield from _judged(scene, thrust, tree)
 
