@@ -46,6 +46,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
+from loadflow.studies import compare_risks
 from loadflow.studies.compare import _oil, in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
@@ -770,6 +771,28 @@ def test_a_load_that_dips_for_a_moment_is_no_load_that_skids(brief, expected):
     """The rule of catalogues is one of steady running; a twentieth of the time may pass below."""
     loads, weights = np.array([5.0, 0.1, 9.0]), np.array([0.5 - brief, brief, 0.5])
     assert mostly_exceeded(loads, weights) == expected
+
+
+def test_seeds_drawn_anew_may_be_those_whose_shaft_stands_alone(monkeypatch):
+    """Of two seeds the shaft turns in one: what both resample of the other has no load."""
+    scene = make_scene({"name": "s", "bearings": ["tapered-pair"]})
+    rated = scene.rolling.geometries["M"].rated_capacity
+    parts = {
+        case: xr.Dataset({name: ("sample", [one] * 3) for name, one in values.items()})
+        for case, values in {
+            "a": {"speed": 1.0, "weight": 1.0, "time": 0.0},
+            "b": {"speed": 0.0, "weight": 1.0, "time": 0.0},
+        }.items()
+    }
+    monkeypatch.setattr(
+        compare_risks, "_samples", lambda *_: [("M", *one) for one in parts.items()]
+    )
+    load = SimpleNamespace(equivalent_load=np.full(3, 0.05 * rated))
+    monkeypatch.setattr(compare_risks, "_equilibrium", lambda *_: load)
+    coords = {"dlc": ("case", ["1.1"] * 2), "wind_speed": ("case", [4.0] * 2)}
+    cases = xr.Dataset(coords={"case": ["a", "b"], **coords})
+    found = compare_risks._lightest(scene, Path(), cases, Groups.of(cases))
+    assert (found.value, found.low, found.high) == pytest.approx((5.0, 5.0, 5.0))
 
 
 LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
