@@ -997,6 +997,20 @@ def test_cylindrical_and_lobed_bores_are_followed_in_motion_and_others_at_rest(c
     assert resting.reduction.classes is not None
 
 
+def test_bores_with_a_supply_that_the_fast_rung_does_not_know_are_solved_at_rest(cube):
+    def modelled(**groove):
+        lobes = {"kind": "lobes", "count": 2, "preload": 0.2, "groove": 0.25, "angle": 0.35}
+        size = {"diameter": 1.4, "width": 1.2, "relative_clearance": 1e-3, "shape": lobes}
+        own = {"kind": "journal", "geometry": size, "lubricant": {"viscosity": 0.1}}
+        own["supply"] = {"grooves": [{"length": 0.5, "pressure": 3e5} | groove]}
+        scene = scene_of(cube, candidates={"own": {"N": own, "N2": own}})
+        return candidate_scene(scene, "own", scene.candidates["own"], 1000).journal
+
+    assert modelled(angle=1.5, arc=0.3).in_motion
+    for between in ({"angle": 0.35 + math.pi / 2, "arc": 0.1}, {"angle": 1.0, "shape": "circle"}):
+        assert (modelled(**between).motion, modelled(**between).rung) == ("quasi-static", "grid")
+
+
 def test_losses_without_slip_are_near_those_with_every_roller_followed(cube, found, tmp_path):
     """The friction stage follows each roller; sampled ideal rolling is a third off at most."""
     import loadflow as lf
