@@ -96,7 +96,8 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     """The scene of one candidate: its bearings, by the models that suit a comparison.
 
     Journal bearings of cylindrical and lobed bores are followed in motion through the whole series
-    on the rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
+    on the rung ``reduced`` where it knows their supply; others are solved at rest in a few samples,
+    the extremes among them.
 
     Parameters
     ----------
