@@ -459,3 +459,9 @@ def test_a_shaft_on_rigid_bearings_or_in_one_film_has_no_films_that_hold_it_back
     assert not TOGETHER.concerns(scene_of())
     assert not TOGETHER.concerns(scene_of(FLOATS, self_aligning=True))
     assert TOGETHER.concerns(scene_of(FLOATS))
+
+
+def test_help_against_a_tilt_left_out_is_what_it_needs_and_not_to_leave_out_the_beam():
+    plan = make_plan(scene_of(rung="grid", heat=None))
+    (said,) = plan.shortfalls
+    assert f"tilt in the clearances left out; what would help: {CLEARANCES.needs}" in said

@@ -151,3 +151,8 @@ def test_a_key_of_several_types_is_told_in_one_line_without_their_names(stated, 
         make_scene({"name": "own"} | stated)
     assert told in str(refused.value)
     assert str(refused.value).count("\n") == 0
+
+
+def test_a_key_that_is_missing_in_a_table_with_kinds_is_told_without_the_name_of_its_class():
+    with pytest.raises(InputError, match=r"journal\.shell\.modulus: this key is missing"):
+        make_scene({"name": "own", "journal": {"shell": {"kind": "thick", "outer_diameter": 3.6}}})

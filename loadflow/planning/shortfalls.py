@@ -138,7 +138,8 @@ def _in_words(wanted: Scene, choice: Choice, part: Part) -> str:
 def _on_in_words(wanted: Scene, ran: Scene, effect: Effect) -> str:
     """What an effect needs to be on: no more than the plan's leave, where its key alone bars it."""
     named = [key for key in effect.keys if not _leaves(wanted, key)]
-    if not named or switched(ran, effect, True) is None:
+    # where keys say more than that (a beam, beside what it rests on) they are not to be left out
+    if not named or effect.stated is not None or switched(ran, effect, True) is None:
         return effect.needs
     return f"leave {' and '.join(named)} to the plan"
 

@@ -16,8 +16,13 @@ from loadflow.storage import check_content
 UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """First bytes of a text in UTF-16, as shells of Windows write."""
 
-_FORTRAN = re.compile(r"([+-]?(?:\d+\.?\d*|\.\d+))(?:[dD]([+-]?\d+)|([+-]\d+))")
-"""A number of Fortran: an exponent of three digits takes the place of the E, ``1.5-102``."""
+_FORTRAN = re.compile(
+    r"([+-]?(?:\d+\.?\d*|\.\d+))[dD]([+-]?\d+)|([+-]?(?:\d+\.\d*|\.\d+))([+-]\d{3})"
+)
+"""A number of Fortran: an exponent of three digits takes the place of the E, ``1.5-102``.
+
+That form has a point and all three digits; ``2020-01`` is a date, and no number.
+"""
 
 
 def read_text(path: Path) -> str:
@@ -95,7 +100,7 @@ def _number(field: str, where: str) -> float:
         return float(field)
     except ValueError:
         if match := _FORTRAN.fullmatch(field):
-            return float(f"{match[1]}e{match[2] or match[3]}")
+            return float(f"{match[1] or match[3]}e{match[2] or match[4]}")
         if not field.strip("*"):
             return math.nan
         raise InputError(f"{where}: {field!r} is not a number") from None

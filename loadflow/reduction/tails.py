@@ -79,7 +79,8 @@ class Tail:
             scale, shape = self.scale * exponent.mean(axis=1), np.zeros(draws)
         else:
             scale, shape = _pareto(self.scale * np.expm1(self.shape * exponent) / self.shape)
-        rate = self.rate * rng.poisson(self.count, draws) / self.count
+        # without a single value there is no fit
+        rate = self.rate * np.maximum(rng.poisson(self.count, draws), 1) / self.count
         return np.stack([np.full(draws, self.threshold), scale, shape, rate], axis=1)
 
 
@@ -223,7 +224,8 @@ def long_term_extreme(
         Return period: IEC 61400-1 takes 50.
     confidence : float
         Of the interval, a parametric bootstrap of the fits (bootstrap-t: misses of resampled fits
-        in their own scale); doubt about the distribution itself is not in it.
+        in their own scale; percentiles where a shape was fitted, by which that scale varies over
+        orders of magnitude); doubt about the distribution itself is not in it.
     seed : int
         Of the bootstrap.
 
@@ -257,14 +259,15 @@ def long_term_extreme(
     value = _level(best, shares, wanted)
     rng = np.random.default_rng(seed)
     drawn = np.stack([tail._resampled(rng, RESAMPLES) for tail in tails])
-    level = _level(drawn, shares, wanted)
-    # pivot: how far a fit to as many values misses the level, in its own scale
-    miss = (level - value) / _scale(level, drawn, shares)
-    upper, lower = np.quantile(miss, [(1 - confidence) / 2, (1 + confidence) / 2])
-    scale = _scale(value, best, shares)
-    low, high = (float((value - scale * end)[0]) for end in (lower, upper))
+    level, ends = _level(drawn, shares, wanted), [(1 - confidence) / 2, (1 + confidence) / 2]
+    if any(tail.shape for tail in tails):
+        low, high = np.quantile(level, ends)
+    else:  # pivot: how far a fit to as many values misses the level, in its own scale
+        miss = (level - value) / _scale(level, drawn, shares)
+        upper, lower = np.quantile(miss, ends)
+        low, high = (value - _scale(value, best, shares) * [[lower], [upper]])[:, 0]
     rates = shares * [float(tail.rate_above(value[0])) for tail in tails]
-    return LongTermExtreme(float(value[0]), low, high, rates / rates.sum())
+    return LongTermExtreme(float(value[0]), float(low), float(high), rates / rates.sum())
 
 
 def _rate(level: Floats, parameters: Floats) -> Floats:
@@ -279,11 +282,9 @@ def _rate(level: Floats, parameters: Floats) -> Floats:
 
 
 def _scale(level: Floats, parameters: Floats, shares: Floats) -> Floats:
-    """By how much the level (draws,) rises as the rate of all tails falls by the factor e."""
-    threshold, scale, shape, _ = np.moveaxis(parameters, -1, 0)
-    own = scale + shape * (level - threshold)
-    rate = shares[:, None] * _rate(level, parameters) * (own > 0)
-    return np.asarray(rate.sum(axis=0) / (rate / np.where(own > 0, own, 1.0)).sum(axis=0))
+    """By how much the level (draws,) rises as the rate of tails without shape falls by e."""
+    rate = shares[:, None] * _rate(level, parameters)
+    return np.asarray(rate.sum(axis=0) / (rate / parameters[..., 1]).sum(axis=0))
 
 
 def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from pydantic import ValidationError
+
 from loadflow.errors import InputError
 from loadflow.journal import Lobes
 from loadflow.numerics.fields import none_such
@@ -94,7 +96,8 @@ def candidate_scene(base: Scene, name: str, candidate: Candidate, steps: int) ->
     """The scene of one candidate: its bearings, by the models that suit a comparison.
 
     Journal bearings of cylindrical and lobed bores are followed in motion through the whole series
-    on the rung ``reduced``; others are solved at rest in a few samples, the extremes among them.
+    on the rung ``reduced`` where it knows their supply; others are solved at rest in a few samples,
+    the extremes among them.
 
     Parameters
     ----------
@@ -169,7 +172,17 @@ def _modelled(journal: Journal) -> Journal:
         return journal
     fast = {"motion": "transient", "rung": "reduced"}
     own = {place: part.model_copy(update=fast) for place, part in journal.own.items()}
-    return journal.model_copy(update=fast | {"own": own})
+    found = journal.model_copy(update=fast | {"own": own})
+    return found if _goes_together(found) else journal
+
+
+def _goes_together(journal: Journal) -> bool:
+    """Whether the rung knows all of a bearing: a supply in the groove between lobes it does not."""
+    try:
+        Journal.model_validate(dict(journal))
+    except ValidationError:
+        return False
+    return True
 
 
 def chosen_of(known: dict[str, Candidate], names: list[str] | None) -> dict[str, Candidate]:

@@ -41,7 +41,7 @@ def message(
     lines = []
     classes = _schema(model).get("$defs", {})
     for item in _of_given_type(_of_stated_kind(error.errors()), classes):
-        place = [*_place(item["loc"])]
+        place = [part for part in _place(item["loc"]) if part not in classes]
         key = ".".join(str(part) for part in written(place, origins)) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
         reason = reason.replace("String should match", "must match")

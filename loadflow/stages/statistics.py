@@ -47,16 +47,15 @@ def describe(series: xr.Dataset) -> xr.Dataset:
 
 def _describe(data: xr.DataArray, duration: float) -> xr.DataArray:
     values = np.moveaxis(data.values.astype(float), data.dims.index("time"), -1)
-    rows = [_row(x, duration) for x in values.reshape(-1, values.shape[-1])]
-    if data.attrs.get("units") not in _LOADS:
-        rows = [[*row[:-1], np.nan] for row in rows]
+    damages = data.attrs.get("units") in _LOADS
+    rows = [_row(x, duration, damages) for x in values.reshape(-1, values.shape[-1])]
     dims = [dim for dim in data.dims if dim != "time"]
     coords = {dim: data[dim] for dim in dims if dim in data.coords}
     shape = (*values.shape[:-1], len(STATISTICS))
     return xr.DataArray(np.reshape(rows, shape), coords, [*dims, "statistic"], attrs=data.attrs)
 
 
-def _row(x: np.ndarray, duration: float) -> list[float]:
+def _row(x: np.ndarray, duration: float, damages: bool) -> list[float]:
     if np.isnan(x).all():  # nothing that this bearing has: the tilt in one on a rigid shaft
         return [np.nan] * len(STATISTICS)
     mean, deviation = float(x.mean()), float(x.std())
@@ -64,7 +63,7 @@ def _row(x: np.ndarray, duration: float) -> list[float]:
     z = (x - mean) / deviation if varies else np.zeros(1)
     square = z * z
     shape = float(np.mean(square * z)), float(np.mean(square * square))
-    fatigue = float(damage_equivalent_load(x, SLOPE, duration))
+    fatigue = float(damage_equivalent_load(x, SLOPE, duration)) if damages else np.nan
     return [mean, deviation, float(x.min()), float(x.max()), *shape, fatigue]
 
 

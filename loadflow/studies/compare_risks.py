@@ -175,6 +175,8 @@ def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> 
 
     def over_limit(place: str, asked: Iterable[int]) -> float:
         there = [found[place][k] for k in asked if k in found[place]]
+        if not there:  # of seeds drawn anew, those whose shaft stands alone
+            return math.nan
         loads, weights = (np.concatenate([one[k] for one in there]) for k in (0, 1))
         return mostly_exceeded(loads, weights) / _limit(scene, place)
 

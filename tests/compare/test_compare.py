@@ -46,6 +46,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
+from loadflow.studies import compare_risks
 from loadflow.studies.compare import _oil, in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
@@ -772,6 +773,28 @@ def test_a_load_that_dips_for_a_moment_is_no_load_that_skids(brief, expected):
     assert mostly_exceeded(loads, weights) == expected
 
 
+def test_seeds_drawn_anew_may_be_those_whose_shaft_stands_alone(monkeypatch):
+    """Of two seeds the shaft turns in one: what both resample of the other has no load."""
+    scene = make_scene({"name": "s", "bearings": ["tapered-pair"]})
+    rated = scene.rolling.geometries["M"].rated_capacity
+    parts = {
+        case: xr.Dataset({name: ("sample", [one] * 3) for name, one in values.items()})
+        for case, values in {
+            "a": {"speed": 1.0, "weight": 1.0, "time": 0.0},
+            "b": {"speed": 0.0, "weight": 1.0, "time": 0.0},
+        }.items()
+    }
+    monkeypatch.setattr(
+        compare_risks, "_samples", lambda *_: [("M", *one) for one in parts.items()]
+    )
+    load = SimpleNamespace(equivalent_load=np.full(3, 0.05 * rated))
+    monkeypatch.setattr(compare_risks, "_equilibrium", lambda *_: load)
+    coords = {"dlc": ("case", ["1.1"] * 2), "wind_speed": ("case", [4.0] * 2)}
+    cases = xr.Dataset(coords={"case": ["a", "b"], **coords})
+    found = compare_risks._lightest(scene, Path(), cases, Groups.of(cases))
+    assert (found.value, found.low, found.high) == pytest.approx((5.0, 5.0, 5.0))
+
+
 LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
 LOOSE = Verdict("journal N2", THRUST, 964e3, 0.0, "at most", "N")
 
@@ -972,6 +995,20 @@ def test_cylindrical_and_lobed_bores_are_followed_in_motion_and_others_at_rest(c
         assert one.journal.at("N2").in_motion
     assert resting.journal.motion == "quasi-static"
     assert resting.reduction.classes is not None
+
+
+def test_bores_with_a_supply_that_the_fast_rung_does_not_know_are_solved_at_rest(cube):
+    def modelled(**groove):
+        lobes = {"kind": "lobes", "count": 2, "preload": 0.2, "groove": 0.25, "angle": 0.35}
+        size = {"diameter": 1.4, "width": 1.2, "relative_clearance": 1e-3, "shape": lobes}
+        own = {"kind": "journal", "geometry": size, "lubricant": {"viscosity": 0.1}}
+        own["supply"] = {"grooves": [{"length": 0.5, "pressure": 3e5} | groove]}
+        scene = scene_of(cube, candidates={"own": {"N": own, "N2": own}})
+        return candidate_scene(scene, "own", scene.candidates["own"], 1000).journal
+
+    assert modelled(angle=1.5, arc=0.3).in_motion
+    for between in ({"angle": 0.35 + math.pi / 2, "arc": 0.1}, {"angle": 1.0, "shape": "circle"}):
+        assert (modelled(**between).motion, modelled(**between).rung) == ("quasi-static", "grid")
 
 
 def test_losses_without_slip_are_near_those_with_every_roller_followed(cube, found, tmp_path):

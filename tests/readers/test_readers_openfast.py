@@ -1,5 +1,7 @@
 """OpenFAST files: sound ones arrive in SI units, unsound ones are named."""
 
+import re
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -264,18 +266,30 @@ def test_text_in_any_usual_encoding_is_read(tmp_path, encoding):
     xr.testing.assert_identical(read_openfast(path), expected)
 
 
-@pytest.mark.parametrize(
-    ("text", "value"), [("1.5-102", 1.5e-102), ("-.25D+02", -25.0), ("2.5+003", 2500.0)]
-)
-def test_numbers_are_read_as_fortran_writes_them(tmp_path, text, value):
-    path = write_out(tmp_path / "a.out", channels())
+def with_thrust(path, text):
+    """A file in which the thrust of the fourth time step is that text."""
+    write_out(path, channels())
     lines = path.read_text().splitlines()
     at = next(i for i, line in enumerate(lines) if line.split()[:1] == ["Time"])
     row = lines[at + 5].split()
     row[lines[at].split().index("RotThrust")] = text
     lines[at + 5] = "\t".join(row)
     path.write_text("\n".join(lines))
-    assert read_openfast(path)["hub_force"][0, 3] == pytest.approx(1e3 * value, rel=1e-6)
+    return path
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("1.5-102", 1.5e-102), ("-.25D+02", -25.0), ("2.5+003", 2500.0)]
+)
+def test_numbers_are_read_as_fortran_writes_them(tmp_path, text, value):
+    series = read_openfast(with_thrust(tmp_path / "a.out", text))
+    assert series["hub_force"][0, 3] == pytest.approx(1e3 * value, rel=1e-6)
+
+
+@pytest.mark.parametrize("text", ["2020-01", "12-102", "1.5+3"])
+def test_what_looks_like_an_exponent_but_fortran_does_not_write_is_no_number(tmp_path, text):
+    with pytest.raises(InputError, match=rf"line 12: '{re.escape(text)}' is not a number"):
+        read_openfast(with_thrust(tmp_path / "a.out", text))
 
 
 def test_a_number_that_did_not_fit_matters_in_its_channel_alone(tmp_path):

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from loadflow.errors import InputError
 from loadflow.reduction import Tail, long_term_extreme, tail_of_maxima, tail_of_peaks
 from loadflow.reduction.extremes import gumbel_parameters
-from loadflow.reduction.tails import YEAR
+from loadflow.reduction.tails import YEAR, _pareto
 
 
 def gumbel_tail(location=100.0, scale=5.0, count=60):
@@ -67,6 +67,26 @@ def test_interval_of_many_wind_speeds_with_few_seeds_covers_the_true_level():
     maxima = (rng.gumbel(100.0, 5.0, (11, 6)) for _ in range(60))
     found = [level(*gumbel_parameters(x)) for x in maxima]
     assert sum(one.low <= truth <= one.high for one in found) >= 52
+
+
+def test_interval_of_tails_with_a_fitted_shape_covers_the_true_level():
+    """The scale of such fits varies so much that misses over it would cover in two of three."""
+
+    def level(scale, shape):
+        return long_term_extreme([Tail(100.0, scale, shape, 1 / 600, 60, "peaks")], [1.0])
+
+    rng, truth = np.random.default_rng(1), level(5.0, -0.2).value
+    drawn = -25.0 * np.expm1(-0.2 * rng.standard_exponential((40, 60)))
+    found = [level(float(scale), float(shape)) for scale, shape in zip(*_pareto(drawn))]
+    assert sum(one.low <= truth <= one.high for one in found) >= 34
+
+
+def test_interval_of_few_peaks_is_known_whatever_is_drawn():
+    """Of ten peaks a resample may have none: four of these seeds have one."""
+    few = Tail(100.0, 5.0, 0.0, 1 / 600, 10, "peaks")
+    for seed in (13, 18, 42, 43):
+        found = long_term_extreme([few], [1.0], seed=seed)
+        assert found.low < found.value < found.high
 
 
 def test_exceedances_that_are_near_are_one_peak():
