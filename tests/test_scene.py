@@ -155,8 +155,20 @@ def test_a_key_of_several_types_is_told_in_one_line_without_their_names(stated, 
     assert str(refused.value).count("\n") == 0
 
 
-JOURNAL = {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
-ROLLER = {"rollers": 64, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_diameter": 2.2}
+JOURNAL = {"kind": "journal"}, {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
+ROLLER = (
+    {"kind": "roller"},
+    {"rollers": 64, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_diameter": 2.2},
+)
+COLLAR = (
+    {"kind": "thrust"},
+    {"pads": 18, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5},
+)
+
+
+def placed(place, bearing, more=(), **geometry):
+    about, measures = bearing
+    return {"bearings": {place: about | {"geometry": measures | geometry} | dict(more)}}
 
 
 @pytest.mark.parametrize("wrong", [True, "1"])
@@ -169,36 +181,15 @@ ROLLER = {"rollers": 64, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_di
         ("accuracy.journal.film", lambda x: {"accuracy": {"journal.film": x}}),
         ("shaft.two_point.span", lambda x: {"shaft": {"two_point": {"span": x}}}),
         ("wear.counts.3.1", lambda x: {"wear": {"counts": {"3.1": x}}}),
-        (
-            "bearings.N.geometry.diameter",
-            lambda x: {"bearings": {"N": {"kind": "journal", "geometry": JOURNAL | {"diameter": x}}}},
-        ),
-        (
-            "bearings.M.geometry.rollers",
-            lambda x: {"bearings": {"M": {"kind": "roller", "geometry": ROLLER | {"rollers": x}}}},
-        ),
+        ("bearings.N.geometry.diameter", lambda x: placed("N", JOURNAL, diameter=x)),
+        ("bearings.M.geometry.rollers", lambda x: placed("M", ROLLER, rollers=x)),
         (
             "bearings.M.cooling.transfer",
-            lambda x: {
-                "bearings": {"M": {"kind": "roller", "geometry": ROLLER, "cooling": {"transfer": x}}}
-            },
+            lambda x: placed("M", ROLLER, {"cooling": {"transfer": x}}),
         ),
-        (
-            "bearings.N2.geometry.pads",
-            lambda x: {
-                "bearings": {
-                    "N2": {
-                        "kind": "thrust",
-                        "geometry": {
-                            "pads": x, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3,
-                            "taper": 8e-5,
-                        },
-                    }
-                }
-            },
-        ),
+        ("bearings.N2.geometry.pads", lambda x: placed("N2", COLLAR, pads=x)),
     ],
-)  # fmt: skip
+)
 def test_neither_true_nor_a_text_is_a_number_in_any_part_of_a_scene(key, stated, wrong):
     with pytest.raises(InputError) as refused:
         make_scene({"name": "own"} | stated(wrong))

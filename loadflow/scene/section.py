@@ -48,9 +48,7 @@ class Section(BaseModel):
     model_config = SECTION
 
     @classmethod
-    def __get_pydantic_core_schema__(
-        cls, source: Any, handler: GetCoreSchemaHandler
-    ) -> CoreSchema:
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """Schema of the part in which no number may be written as text, or as true."""
         return strict_numbers(handler(source), handler)
 
