@@ -80,13 +80,13 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     around = scene.environment.model_dump(mode="json", exclude_none=True)
     bare = {"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]}
     default = make_scene(bare := bare | {"environment": around})
-    sized = {"candidates": {name: {} for name in candidates_of(scene.turbine.name)}}
+    sized: dict[str, dict[str, str]] = {name: {} for name in candidates_of(scene.turbine.name)}
     own = Candidate(journal=scene.journal, rolling=scene.rolling, thrust=scene.thrust)
-    named = own.rooms_of(make_scene(bare | sized).candidates.values())  # nobody wrote their keys
+    named = own.rooms_of(make_scene(bare | {"candidates": sized}).candidates.values())
     for section in sorted(unread - (named if named - unread else set())):
         if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
-    silent = unread | named
+    silent = unread | named  # nobody wrote the keys of bearings that are taken by name
     for name in type(scene).model_fields:
         for keys, reason in idle_keys(getattr(scene, name), (name,)) if name not in silent else ():
             yield ".".join(map(str, keys)), reason
