@@ -128,6 +128,8 @@ def test_a_bearing_without_a_rating_is_refused_before_its_loads_are_simulated():
     ("accuracy", "told"),
     [
         (0, "accuracy = 0: must be greater than 0"),
+        (5, "accuracy = 5: must be less than 1"),
+        (True, "accuracy = True: must be a valid number"),
         ("high", "accuracy = 'high': must be a valid number or a table or 'given'"),
         ({"journal.film": -1}, "accuracy.journal.film = -1: must be greater than 0"),
     ],
@@ -156,3 +158,47 @@ def test_a_key_of_several_types_is_told_in_one_line_without_their_names(stated, 
 def test_a_key_that_is_missing_in_a_table_with_kinds_is_told_without_the_name_of_its_class():
     with pytest.raises(InputError, match=r"journal\.shell\.modulus: this key is missing"):
         make_scene({"name": "own", "journal": {"shell": {"kind": "thick", "outer_diameter": 3.6}}})
+
+
+JOURNAL = {"kind": "journal"}, {"diameter": 3.0, "width": 2.25, "relative_clearance": 1e-3}
+ROLLER = (
+    {"kind": "roller"},
+    {"rollers": 64, "roller_diameter": 0.1, "roller_length": 0.1, "pitch_diameter": 2.2},
+)
+COLLAR = (
+    {"kind": "thrust"},
+    {"pads": 18, "inner_radius": 1.6, "outer_radius": 1.9, "pad_angle": 0.3, "taper": 8e-5},
+)
+
+
+def placed(place, bearing, more=(), **geometry):
+    about, measures = bearing
+    return {"bearings": {place: about | {"geometry": measures | geometry} | dict(more)}}
+
+
+@pytest.mark.parametrize("wrong", [True, "1"])
+@pytest.mark.parametrize(
+    ("key", "stated"),
+    [
+        ("loads.duration", lambda x: {"loads": {"duration": x}}),
+        ("loads.seeds", lambda x: {"loads": {"seeds": x}}),
+        ("loads.wind_speeds.1", lambda x: {"loads": {"wind_speeds": [8.0, x]}}),
+        ("accuracy.journal.film", lambda x: {"accuracy": {"journal.film": x}}),
+        ("shaft.two_point.span", lambda x: {"shaft": {"two_point": {"span": x}}}),
+        ("wear.counts.3.1", lambda x: {"wear": {"counts": {"3.1": x}}}),
+        ("bearings.N.geometry.diameter", lambda x: placed("N", JOURNAL, diameter=x)),
+        ("bearings.M.geometry.rollers", lambda x: placed("M", ROLLER, rollers=x)),
+        (
+            "bearings.M.cooling.transfer",
+            lambda x: placed("M", ROLLER, {"cooling": {"transfer": x}}),
+        ),
+        ("bearings.N2.geometry.pads", lambda x: placed("N2", COLLAR, pads=x)),
+    ],
+)
+def test_neither_true_nor_a_text_is_a_number_in_any_part_of_a_scene(key, stated, wrong):
+    with pytest.raises(InputError) as refused:
+        make_scene({"name": "own"} | stated(wrong))
+    assert any(
+        line.startswith(f"scene: {key} = {wrong!r}: must be a valid ")
+        for line in str(refused.value).splitlines()
+    ), refused.value

@@ -145,5 +145,5 @@ def test_without_results_a_shaft_is_asked_only_for_what_it_has():
 
 
 def test_a_default_bearing_that_results_ask_for_names_the_key_to_set():
-    with pytest.raises(InputError, match=r"set rolling\.bearing to what it has, or leave"):
+    with pytest.raises(InputError, match=r"rolling\.bearing = 'M'.* the shaft has .*N, N2;"):
         make_scene({"shaft": {"two_point": {}}, "results": ["rolling.life"]})

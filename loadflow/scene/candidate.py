@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from typing import Any
+
 from pydantic import BaseModel
 
 from loadflow.scene.bearings import Rolling
@@ -32,8 +35,26 @@ class Candidate(Section, BaseModel):
     tolerances: Tolerances = {}
 
     @property
+    def bearings(self) -> dict[str, dict[str, Any]]:
+        """Its bearings by room and place."""
+        films, rolling, thrust = self.journal, self.rolling, self.thrust
+        return {
+            "journal": {place: films.at(place) for place in films.bearings} if films else {},
+            "rolling": dict(rolling.bearings) if rolling else {},
+            "thrust": dict(thrust.bearings) if thrust else {},
+        }
+
+    @property
     def places(self) -> tuple[str, ...]:
         """Places on the shaft that it needs."""
-        journal = self.journal.bearings if self.journal else []
-        rolling = self.rolling.geometries if self.rolling else ()
-        return (*journal, *rolling, *(self.thrust.bearings if self.thrust else ()))
+        return tuple(place for room in self.bearings.values() for place in room)
+
+    def rooms_of(self, others: Iterable[Candidate]) -> set[str]:
+        """Rooms that it has bearings in, all of them as they are in one of the others."""
+        known = [other.bearings for other in others]
+        return {
+            room
+            for room, parts in self.bearings.items()
+            if parts
+            and all(any(o[room].get(p) == part for o in known) for p, part in parts.items())
+        }

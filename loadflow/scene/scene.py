@@ -59,7 +59,7 @@ from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
-Positive = Annotated[float, Field(gt=0)]
+Share = Annotated[float, Field(gt=0, lt=1)]
 
 _ROW = np.zeros((1, 2))
 
@@ -76,7 +76,8 @@ class Scene(Section, WithFittingBeams, BaseModel):
         `BY_NAME`, and but those of journal or rolling bearings of which the scene says nothing and
         the shaft has none.
     accuracy : float, dict or "given"
-        Largest relative error allowed, of every result or by result; 5 % if nothing is said. The
+        Largest relative error allowed, of every result or by result, as a share above 0 and below
+        1; 0.05 if nothing is said. The
         plan takes the cheapest models and effects that hold it, wherever the scene names none.
         ``"given"`` leaves all models as the scene has them, the defaults where it names none.
     tolerances : dict
@@ -96,7 +97,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
 
     name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
     results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
-    accuracy: Positive | dict[Result, Positive] | Literal["given"] = 0.05
+    accuracy: Share | dict[Result, Share] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()
     environment: Environment = Environment()
     loads: Loads = Loads()

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import MISSING, fields, is_dataclass
 from functools import reduce
 from operator import or_
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, GetCoreSchemaHandler, Tag
+from pydantic_core import CoreSchema
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import shown
@@ -18,10 +19,38 @@ SECTION = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 """Of every part of a scene: frozen, and an unknown key is an error."""
 
 
+def strict_numbers(schema: CoreSchema, handler: GetCoreSchemaHandler) -> CoreSchema:
+    """Let numbers at any depth of a schema be numbers alone.
+
+    Pydantic takes true for 1 and "63" for 63. Its option ``strict`` would ask for tuples and
+    dataclasses themselves, too, which no TOML file can hold.
+    """
+    todo: list[Any] = [schema]
+    seen = set[str]()
+    while todo:
+        part = todo.pop()
+        if isinstance(part, list | tuple):
+            todo += part
+        elif isinstance(part, dict):
+            kind = part.get("type")
+            if kind in ("float", "int"):
+                part["strict"] = True
+            elif kind == "definition-ref" and part["schema_ref"] not in seen:
+                seen.add(part["schema_ref"])
+                todo.append(handler.resolve_ref_schema(cast("CoreSchema", part)))
+            todo += part.values()
+    return schema
+
+
 class Section(BaseModel):
     """Part of a scene."""
 
     model_config = SECTION
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        """Schema of the part in which no number may be written as text, or as true."""
+        return strict_numbers(handler(source), handler)
 
     @property
     def changed(self) -> set[str]:

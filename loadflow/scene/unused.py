@@ -9,6 +9,8 @@ from loadflow.journal import FilmHeat, Heat
 from loadflow.journal.rungs import RUNGS
 from loadflow.journal.surfaces import Reversed
 from loadflow.rolling.friction import Churning
+from loadflow.scene.candidate import Candidate
+from loadflow.scene.candidates import candidates_of
 from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
 from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
@@ -77,23 +79,23 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
     unread = {section for section in _RESULTS if not _is_read(scene, section)}
     around = scene.environment.model_dump(mode="json", exclude_none=True)
     bare = {"turbine": {"name": scene.turbine.name}, "results": ["loads.statistics"]}
-    default = make_scene(bare | {"environment": around})
-    for section in sorted(unread):
+    default = make_scene(bare := bare | {"environment": around})
+    sized: dict[str, dict[str, str]] = {name: {} for name in candidates_of(scene.turbine.name)}
+    own = Candidate(journal=scene.journal, rolling=scene.rolling, thrust=scene.thrust)
+    named = own.rooms_of(make_scene(bare | {"candidates": sized}).candidates.values())
+    for section in sorted(unread - (named if named - unread else set())):
         if getattr(scene, section) != getattr(default, section):
             yield section, "no wanted result reads this section"
-    for key, reason in _of_environment(scene):
-        if key in scene.environment.changed:
-            yield f"environment.{key}", reason
-    for key, reason in _of_loads(scene):
-        if key in scene.loads.changed:
-            yield f"loads.{key}", reason
+    silent = unread | named  # nobody wrote the keys of bearings that are taken by name
     for name in type(scene).model_fields:
-        for keys, reason in idle_keys(getattr(scene, name), (name,)) if name not in unread else ():
+        for keys, reason in idle_keys(getattr(scene, name), (name,)) if name not in silent else ():
             yield ".".join(map(str, keys)), reason
     yield from _of_shaft(scene)
-    yield from _of_thrust(scene) if "thrust" not in unread else ()
-    yield from of_each_rolling(scene) if "rolling" not in unread else ()
+    yield from _of_thrust(scene) if "thrust" not in silent else ()
+    yield from of_each_rolling(scene) if "rolling" not in silent else ()
     for section, rules in (
+        ("environment", _of_environment),
+        ("loads", _of_loads),
         ("reduction", _of_reduction),
         ("journal", _of_journal),
         ("friction", of_friction),
@@ -101,7 +103,7 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         ("wear", _of_wear),
         ("lifetime", _of_lifetime),
     ):
-        for key, reason in rules(scene) if section not in unread else ():
+        for key, reason in rules(scene) if section not in silent else ():
             if _differs(scene, section, key):
                 yield f"{section}.{key}", reason
 

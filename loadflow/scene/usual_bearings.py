@@ -7,7 +7,6 @@ from collections.abc import Iterator
 from loadflow.scene.bearings import Rolling
 from loadflow.scene.journal import Journal
 from loadflow.scene.turbine import Turbine
-from loadflow.turbines.files import scaled_name
 
 
 def usual_bearings(
@@ -31,8 +30,8 @@ def usual_bearings(
     bearings N, N2: 3 m × 2.25 m, made for nrel-5mw; state those of iea-15mw in [bearings.N]
     """
     made_for = Turbine().name
-    if turbine == made_for or scaled_name(turbine)[1] is not None:
-        return  # its own; told as a whole
+    if turbine == made_for:
+        return  # its own
     films, balls = Journal().geometry, Rolling().geometry
     told = f"made for {made_for}; state those of {turbine} in"
     if journal is not None:

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
+from loadflow.errors import InputError
 from loadflow.numerics.fields import meant
 from loadflow.scene.candidates import ABOUT, TOLERANCES, candidates_of, machine_names
 from loadflow.scene.own_shaft import own_shaft
@@ -73,6 +74,8 @@ def in_sections(data: dict[str, Any], results: Sequence[str]) -> dict[str, Any]:
     if (shaft := own_shaft(turbine, read.get("shaft"))) is not None:
         read["shaft"] = shaft
     wrong: list[str] = []
+    if isinstance(read.get("bearings"), str | list) and _unread(turbine):
+        del read["bearings"]
     if "bearings" in read:
         with told_later(wrong):
             sections = sections_of(_placed(read.pop("bearings"), turbine)).data
@@ -99,10 +102,10 @@ def _candidate(name: str, stated: Any, turbine: str) -> Any:
     if {"journal", "rolling", "thrust"} & {k for k, v in stated.items() if not _is_place(v)}:
         return stated  # in sections already
     places, about = _bare(stated), {key: stated[key] for key in _NO_PLACES if key in stated}
-    if not places:
+    if not places and not _unread(turbine):
         sized = _sized(name, turbine, f"candidates.{name}: says nothing, and")
         places, about = _bare(sized), {k: sized[k] for k in ABOUT} | about
-    return about | sections_of(places, ("candidates", name)).data
+    return about | (sections_of(places, ("candidates", name)).data if places else {})
 
 
 def _placed(stated: Any, turbine: str) -> Any:
@@ -121,7 +124,6 @@ def _sized(name: str, turbine: str, told: str) -> dict[str, Any]:
     """A candidate of the package; `told` begins the message where there is none of that name."""
     known = candidates_of(turbine)
     if not known:
-        load_turbine(turbine)  # what is wrong with its name or file is told first
         raise ValueError(
             f"{told} bearings are sized for {', '.join(machine_names())}, not for {turbine}; state "
             "its own as [bearings.PLACE]: `loadflow scene --show` of a scene with one of these "
@@ -133,6 +135,15 @@ def _sized(name: str, turbine: str, told: str) -> dict[str, Any]:
         )
     found: dict[str, Any] = known[name]
     return found
+
+
+def _unread(turbine: str) -> bool:
+    """Whether a turbine cannot be read, which its own check tells, with its key."""
+    try:
+        load_turbine(turbine)
+    except InputError:
+        return True
+    return False
 
 
 def _is_place(value: Any) -> bool:

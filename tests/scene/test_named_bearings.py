@@ -1,0 +1,57 @@
+"""Bearings that a scene takes by name: what is said of them, and of turbines that have none."""
+
+import pytest
+
+from loadflow.errors import InputError
+from loadflow.scene.candidates import candidates_of
+from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
+
+OWN = {
+    "kind": "journal",
+    "self_aligning": True,
+    "geometry": {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3},
+}
+OWN_PLACES = {"N": OWN, "N2": OWN}
+
+
+@pytest.mark.parametrize("turbine", ["nrel-5mw", "windpact-1.5mw", "iea-15mw"])
+def test_no_key_of_bearings_taken_by_name_is_said_to_have_no_effect(turbine):
+    for name in candidates_of(turbine):
+        scene = make_scene({"turbine": {"name": turbine}, "bearings": name})
+        assert unused_keys(scene) == {}, name
+    written = {"turbine": {"name": turbine}, "bearings": OWN_PLACES}
+    assert {*unused_keys(make_scene(written))} == {"journal.self_aligning"}
+
+
+def test_a_collar_alone_is_asked_of_bearings_that_have_films_beside_it():
+    named = {"bearings": "journal-thrust", "results": ["thrust.film"]}
+    assert unused_keys(make_scene(named)) == {}
+
+
+def test_bearings_by_name_of_which_nothing_is_wanted_are_told():
+    named = {"bearings": "journal-lemon", "results": ["loads.statistics"]}
+    assert unused_keys(make_scene(named)) == {"journal": "no wanted result reads this section"}
+
+
+@pytest.mark.parametrize(
+    "stated", [{"bearings": "journal-lemon"}, {"candidates": {"spherical": {}}}]
+)
+@pytest.mark.parametrize(
+    ("turbine", "key"), [({"name": "nrel-6mw"}, "name"), ({"file": "/absent/own.toml"}, "file")]
+)
+def test_a_turbine_that_cannot_be_read_is_told_once(stated, turbine, key):
+    with pytest.raises(InputError) as refused:
+        make_scene(stated | {"turbine": turbine, "loads": {"seeds": 0}})
+    told = str(refused.value).splitlines()
+    assert len(told) == 2, told
+    assert told[0].startswith(f"scene: turbine.{key}: ")
+    assert told[1].startswith("scene: loads.seeds = 0: ")
+
+
+def test_a_scaled_turbine_without_bearings_of_its_own_asks_for_them():
+    told = "\n".join(make_scene({"turbine": {"name": "nrel-5mw@7e6"}}).taken)
+    assert "made for nrel-5mw; state those of nrel-5mw@7e6 in [bearings.N]" in told
+    assert "state those of nrel-5mw@7e6 in [bearings.M]" in told
+    own = {"turbine": {"name": "nrel-5mw@7e6"}, "bearings": OWN_PLACES}
+    assert make_scene(own).taken == []
