@@ -7,6 +7,7 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.journal import (
+    Arc,
     Film,
     FilmHeat,
     GasMixture,
@@ -104,3 +105,11 @@ def test_a_groove_between_segments_names_it(rung):
     fed = Supply((Groove(angle=math.pi / 3, arc=0.2, pressure=2e5),))
     with pytest.raises(InputError, match=r"grooves\[0\].angle .* shape.groove_pressure"):
         lobed(None).equilibrium(FORCE, SPEED, on(rung, supply=fed))
+
+
+def test_oil_beside_an_arc_at_a_pressure_of_its_own_is_refused_by_its_key():
+    arc = Arc(angle=0.0, span=3.0, groove_pressure=3e5)
+    bearing = JournalBearing(0.5, 0.35, 1e-3, shape=arc)
+    with pytest.raises(InputError, match=r'shape.groove_pressure = 300000.0 .* rung = "grid"'):
+        bearing.equilibrium(FORCE, SPEED, on("reduced"))
+    assert bearing.equilibrium(FORCE, SPEED, on("grid")).converged

@@ -58,10 +58,8 @@ from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import lay_at, longer_step
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
-from loadflow.journal.solvers.moving_pads import FLAT, NEAR
+from loadflow.journal.solvers.moving_pads import FLAT, LATER, NEAR
 from loadflow.numerics.references import refer
-
-LATER = 0.125  # share of a step down to which the pads stay: one that is let go drops the shaft
 
 
 @once

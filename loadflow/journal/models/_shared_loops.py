@@ -15,7 +15,6 @@ from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._composed_gap_kernels import has_gap, narrowest, place, turn
 from loadflow.journal.models._composed_kernels import balance, matrix, slopes_of_balance
 from loadflow.journal.models._composed_loops import ALIKE, KEPT, MORE, ROOM, keep
-from loadflow.journal.models._pad_loops import LATER
 from loadflow.journal.models._reduced_loops import SMALLEST, STEP_LIMIT, predict, two_steps
 from loadflow.journal.models._ring_kernels import factorise, substitute
 from loadflow.journal.models._seat_kernels import hold, hold_slopes, slide
@@ -42,6 +41,7 @@ from loadflow.journal.models._supply_kernels import answers_of_grooves, follow_g
 from loadflow.journal.models._touch_kernels import touch
 from loadflow.journal.models.shared_sides import COORDINATES, SHAFT
 from loadflow.journal.models.slow_heat import lighter, slow_heat
+from loadflow.journal.solvers.moving_pads import LATER
 from loadflow.numerics.references import refer
 
 

@@ -189,8 +189,9 @@ def _pairs(
     stored = _kind_of_heat(film, verb) == "slow_heat"
     if film.rung == "reduced" and not bearing.shape.grooves_between:
         pressure = bearing.pressure_between(film.edge_pressure)
-        at_ends = 'that of the bearing ends beside an arc on rung = "reduced"'
-        yield "groove_pressure", pressure, pressure != film.edge_pressure, at_ends
+        at_ends = f"{film.edge_pressure} Pa, that of the bearing ends, beside an arc on "
+        words = at_ends + 'rung = "reduced"; rung = "grid" knows others'
+        yield "shape.groove_pressure", pressure, pressure != film.edge_pressure, words
     if film.rung == "reduced" and verb == "in_motion":
         uneven = not all(part.even_around for part in bearing.relief)
         alike = 'one that is alike all around for pads in motion on rung = "reduced"'

@@ -26,6 +26,7 @@ Rows = NDArray[np.int64]
 FLAT = 1e-3  # tilt, in clearances, below which a film is about to turn its pad the other way
 NEAR = 0.1  # gap at the pivot, clearances, beyond what holds a pad at rest, that squeeze may hold
 TILT = 0.02  # clearances, at which such a pad begins
+LATER = 0.125  # share of a step down to which the pads stay: one that is let go drops the shaft
 
 
 def other_pads(gap: ShapedGap, last: Past, reached: Array, speed: float) -> Rows:

@@ -17,7 +17,7 @@ from loadflow.journal.rows import attitude_angle
 from loadflow.journal.solvers import step_size
 from loadflow.journal.solvers.history import Past, backward_difference
 from loadflow.journal.solvers.messages import touches
-from loadflow.journal.solvers.moving_pads import other_pads, with_pads
+from loadflow.journal.solvers.moving_pads import LATER, other_pads, with_pads
 from loadflow.journal.solvers.newton import Motion, Solution, solve_equilibrium
 from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.journal.solvers.pads import unload_other_pads
@@ -130,7 +130,7 @@ class Marcher:
             before_step = past = self._on_pads(past)
             solution = self._try(past, now, load, line)
             spent += solution.iterations
-            if not solution.converged and self.film.gap.pads.size:
+            if not solution.converged and self.film.gap.pads.size and share <= LATER:
                 before_step = self._on_other_pads(past, solution)
                 if before_step is not past:
                     solution = self._try(before_step, now, load, line)
