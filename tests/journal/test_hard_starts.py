@@ -6,6 +6,7 @@ Draws of `benchmarks.robustness.families`, each named by what it needs.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any
 
@@ -125,6 +126,20 @@ def test_pads_that_no_film_holds_are_named_and_carry_where_they_are_not_worn():
     with pytest.raises(SolverError, match="a film holds no pad that faces the load"):
         solve()
     del point.shape["relief"]
+    assert point.solve().converged
+
+
+@pytest.mark.filterwarnings("ignore:the cells do not resolve")
+@pytest.mark.parametrize("number", [44, 140, 2124, 2193])
+def test_a_tilted_shaft_that_meets_an_end_of_a_pad_carries_up_to_what_is_told(number):
+    """In 44 other cells are given up: what these have told stands."""
+    point, solve = drawn("pads", number)
+    assert "tilt" in point.film
+    with pytest.raises(SolverError, match=r"touches the bore.* before the film carries") as told:
+        solve()
+    left = re.search(r"the last (\S+) % of the load", str(told.value))
+    assert left
+    point.load *= 0.9 * (1.0 - 0.01 * float(left[1]))
     assert point.solve().converged
 
 

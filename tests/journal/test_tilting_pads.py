@@ -26,8 +26,9 @@ from loadflow.journal.models import composed_film as at
 from loadflow.journal.models.composed_path import Drive, march_of
 from loadflow.journal.models.model import Steps
 from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.newton import no_film
 from loadflow.journal.solvers.pad_estimate import on_pads
-from loadflow.journal.solvers.pads import solve_with_pads
+from loadflow.journal.solvers.pads import balance_pads, solve_with_pads
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 
@@ -189,6 +190,17 @@ def test_a_load_at_which_a_film_takes_hold_of_a_pad_is_refused_by_its_name() -> 
         held = point.bearing.pressure(beside * point.gap, point.speed, point.oil, **point.film)
         missing.append((point.force - held.force) / point.load)
     assert (missing @ np.transpose(missing)).min() < -0.1  # the other way from one to another
+
+
+def test_a_pad_that_meets_the_shaft_however_it_tilts_is_not_sought_a_tilt() -> None:
+    own = statics(BEARING)
+    for place, converged in ((0.6, True), (1.3, False)):
+        position = np.zeros(own.gap.size)
+        position[:2] = place * own.gap.pivots[0]
+        there = replace(no_film(own.film), u=own.film.start(), position=position)
+        found, held = balance_pads(own.film, own.gap, there, own.gap.pads[:1], 1e-10, 60)
+        assert (found.converged, held.tolist()) == (converged, [converged])
+        assert (found.iterations > 0) == converged
 
 
 def test_a_path_that_stops_on_pads_meets_these_as_they_are_tilted() -> None:

@@ -65,6 +65,8 @@ def balance_pads(
         return still, np.ones(0, dtype=bool)
     sign = math.copysign(1.0, film.speed)
     most = np.array([gap.widest_lift(row, position, sign) for row in pads])
+    if not (most > 0.0).all():  # a pad that meets the shaft however it tilts
+        return replace(start, converged=False, iterations=0), np.zeros(pads.size, dtype=bool)
     low, high = _FLATTEST * most, _STEEPEST * most
     lifts = np.array([sign * gap.lift(row, position) for row in pads])
     lifts = np.where((lifts > low) & (lifts < high), lifts, np.sqrt(low * high))
@@ -100,6 +102,14 @@ def balance_pads(
 def _over_pivots(gap: ShapedGap, position: Array) -> Array:
     """Gaps over the pivots of flat pads, clearances, without relief."""
     return np.asarray(1.0 - gap.pivots @ position[:2])
+
+
+def flat_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows, position: Array) -> Rows:
+    """Those of `pads` that lie flat at `position`, as a film turns them that does not hold them."""
+    sign = math.copysign(1.0, film.speed)
+    lifts = [sign * gap.lift(row, position) for row in pads.tolist()]
+    most = [gap.widest_lift(row, position, sign) for row in pads.tolist()]
+    return pads[np.array(lifts) < _FLAT * np.array(most)]
 
 
 def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:

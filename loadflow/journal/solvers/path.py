@@ -10,6 +10,7 @@ ends at the load, or where the shaft meets the shell: then the film carries no s
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -172,6 +173,7 @@ def solve_along_path(
     max_iterations: int,
     effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
+    until: Callable[[Array], bool] = lambda position: False,
 ) -> Solution:
     """Equilibrium under `force` on the path from the load that a film carries where it is held.
 
@@ -189,11 +191,13 @@ def solve_along_path(
         What the path may take.
     free : slice or array of int
         Degrees of freedom that move.
+    until : callable
+        Whether the path ends at a position (m,), as where a pad lies flat.
 
     Returns
     -------
     Solution
-        Not converged where the path meets the shell or its steps are used up: with its last
+        Not converged where the path ends, meets the shell or its steps are used up: with its last
         position, and as `residual` the least part of the load that was missing on it.
     """
     moving = np.arange(film.gap.size)[free]
@@ -224,6 +228,8 @@ def solve_along_path(
                 return replace(answer, iterations=path.spent)
         point = following
         if not math.isfinite(float(point.tangent.sum())) or _at_the_bore(film, point.position):
+            break
+        if until(point.position):
             break
         most = max(most, point.share) if point.share < 1.0 else most
         stride = min(2.0 * stride, _LONGEST) if number < _FEW else stride

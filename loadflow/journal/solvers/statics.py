@@ -32,6 +32,7 @@ from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
     APART,
     ended,
+    has_touched,
     in_rigid_bore,
     solve_by_approach,
     solve_by_speed,
@@ -147,12 +148,15 @@ class Statics:
             return self, solution
         if refine:
             return self.finer.resolve(index, load, omega, None, control, meshes, effort)
-        given = self.film, self.gap, self.options, self.crowd, solution
+        film = self.film
+        given = film, self.gap, self.options, self.crowd, solution
         cells = other_cells(*given) if meshes and not effort.over else None
         if cells is None:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
-        return self._on(*cells).resolve(index, load, omega, None, control, left, effort)
+        found = self._on(*cells).resolve(index, load, omega, None, control, left, effort)
+        # a search that was given up says nothing: where the shaft has touched on these cells stands
+        return (self, solution) if found[1].given_up and has_touched(film, solution) else found
 
     def solve(
         self,
