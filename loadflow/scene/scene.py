@@ -59,7 +59,7 @@ from loadflow.turbines import load_turbine, turbine_digest
 from loadflow.turbines.files import scaled_name
 from loadflow.turbines.similarity import factor_of_power
 
-Share = Annotated[float, Field(gt=0, lt=1)]
+Share = Annotated[float, Field(gt=0)]
 
 _ROW = np.zeros((1, 2))
 

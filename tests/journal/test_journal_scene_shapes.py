@@ -43,8 +43,11 @@ def test_a_scene_states_shape_and_relief_and_keeps_them(tmp_path):
 @pytest.mark.parametrize(
     ("text", "lines"),
     [
-        ('shape = { kind = "lobes", count = 3, span = 2.0 }', ["Lobes.span: unknown key"]),
-        ('shape = { kind = "lobes", count = 0 }', ["Lobes.count = 0"]),
+        (
+            'shape = { kind = "lobes", count = 3, span = 2.0 }',
+            ["journal.geometry.shape.span: unknown key"],
+        ),
+        ('shape = { kind = "lobes", count = 0 }', ["journal.geometry.shape.count = 0"]),
         (
             'shape = { kind = "oval" }',
             [
