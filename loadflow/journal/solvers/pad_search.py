@@ -50,9 +50,8 @@ def search_on_pads(
     if on_pads.converged or touched:
         return on_pads
     if not on_pads.lost.size:
-        asked = film, gap, force, shaft, *limits, effort
         for start in (on_pads, _lightly(gap, force, position, on_pads)):
-            along = _along_path(*asked, start)
+            along = _along_path(film, gap, force, shaft, *limits, effort, start)
             if along is not None:
                 return along
     unload_other_pads(film, gap, pads)
@@ -98,7 +97,8 @@ def _along_path(
     comes to it. Where the film has turned pads flat, the path goes on without them. None: it leads
     nowhere.
     """
-    limits, pads = (tolerance, max_iterations), np.intersect1d(gap.pads, start.free)
+    limits, pads = (tolerance, max_iterations), np.arange(gap.size)[start.free]
+    pads = np.intersect1d(gap.pads, pads)
     while not effort.over:
         held, pads = balanced_film(film, gap, start, pads, *limits)
         effort.take(film, held.iterations)
