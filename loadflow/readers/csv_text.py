@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 from io import StringIO
 from pathlib import Path
@@ -79,9 +80,8 @@ def read_csv(
 def is_series(path: Path) -> bool:
     """Whether the heading of a CSV file has a column of the time, as a load series has."""
     with path.open("rb") as file:
-        start = decoded(file.read(2**16))
-    lines = (line for line in start.splitlines() if line.strip() and line[0] != "#")
-    return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(lines, "")) is not None
+        start = decoded(b"".join(file.readlines(2**16)))  # whole lines, as half a character is none
+    return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(_rows(start), "")) is not None
 
 
 def read_table(path: Path) -> Table:
@@ -119,13 +119,18 @@ def _columns(text: str, path: Path) -> tuple[list[str], str, str]:
 
     A comma among the numbers is a decimal one unless it separates.
     """
-    lines = (line for line in text.splitlines() if line.strip() and line[0] != "#")
-    heading = next(lines, "")
+    rows = _rows(text)
+    heading = next(rows, "")
     if not heading:
         raise InputError(f"{path}: the file is empty")
     separator = max(",;\t", key=heading.count)
-    decimal = "," if separator != "," and any("," in line for line in lines) else "."
+    decimal = "," if separator != "," and any("," in row for row in rows) else "."
     return heading.strip().split(separator), separator, decimal
+
+
+def _rows(text: str) -> Iterator[str]:
+    """Heading and rows of numbers, without blank lines and comments."""
+    return (line for line in text.splitlines() if line.strip() and line[0] != "#")
 
 
 def _heading(column: str, path: Path) -> tuple[str, str]:

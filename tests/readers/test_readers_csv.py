@@ -5,6 +5,7 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.readers import read_csv, read_loads
+from loadflow.readers.csv_text import is_series
 
 HEADING = [
     "time [s]",
@@ -46,6 +47,15 @@ def test_a_decimal_comma_is_read_where_it_does_not_separate(tmp_path, separator)
         path, separator=separator, change=lambda rows: [row.replace(".", ",") for row in rows]
     )
     np.testing.assert_allclose(read_csv(path).speed, values[:, 1] * np.pi / 30, rtol=1e-6)
+
+
+@pytest.mark.parametrize("mark", ["#", "##"])
+def test_a_file_is_recognised_by_its_heading_wherever_its_start_ends(tmp_path, mark):
+    """Were it within a character, the mark of UTF-8 before "time" would be read as Latin-1."""
+    path = tmp_path / "a.csv"
+    write(path, change=lambda rows: [mark + 2**16 * "ö", *rows])
+    path.write_text(path.read_text(encoding="utf-8"), encoding="utf-8-sig")
+    assert is_series(path)
 
 
 def test_columns_of_other_names_and_signs(tmp_path):
