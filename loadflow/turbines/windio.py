@@ -174,7 +174,9 @@ def _described(
     rotor = found.setdefault("rotor", {})
     assumed: list[str] = []
     _geometry(source, found)
-    found["airfoils"], thicknesses = foil_table(source, reynolds_number(source, rotor), assumed)
+    radius = rotor.get("radius")
+    reynolds = reynolds_number(source, radius, _rated_rotor_speed(source, radius))
+    found["airfoils"], thicknesses = foil_table(source, reynolds, assumed)
     blade = blade_table(source, rotor, thicknesses, sections, damping)
     _put(found, "blade", blade or None)
     found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}
@@ -242,6 +244,12 @@ def _geometry(source: Source, found: dict[str, Any]) -> None:
     found.setdefault("drivetrain", {}).setdefault("gear_ratio", 1.0)
 
 
+def _rated_rotor_speed(source: Source, radius: float | None) -> float | None:
+    """Rated speed, no faster than the tip may be, rad/s."""
+    speed, tip = source.number("rated rotor speed"), source.number("largest tip speed")
+    return min(speed or np.inf, tip / radius) if tip and radius else speed
+
+
 def _control(
     source: Source, found: dict[str, Any], merged: Mapping[str, Any], assumed: list[str]
 ) -> None:
@@ -249,9 +257,7 @@ def _control(
     control, drivetrain = found.setdefault("control", {}), found["drivetrain"]
     gear = float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
     radius, ratio = merged["rotor"].get("radius"), source.number("tip speed ratio")
-    rotor_speed = source.number("rated rotor speed")
-    if (tip := source.number("largest tip speed")) and radius:
-        rotor_speed = min(rotor_speed or np.inf, tip / radius)
+    rotor_speed = _rated_rotor_speed(source, radius)
     lowest = source.number("lowest rotor speed") or None
     power = merged.get("rated_power")
     if rotor_speed is not None:

@@ -15,16 +15,15 @@ _UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
 """Places of the 21 numbers of a symmetric matrix in the ontology of WISDEM."""
 
 
-def reynolds_number(source: Source, rotor: dict[str, Any]) -> float | None:
+def reynolds_number(
+    source: Source, radius: float | None, rotor_speed: float | None
+) -> float | None:
     """Reynolds number of the chord at three quarters of the radius at rated speed, if told."""
-    entry = source.path("components.blade") or {}
-    chord = entry.get("outer_shape", entry.get("outer_shape_bem", {})).get("chord")
-    speed, radius = source.number("rated rotor speed"), rotor.get("radius")
-    if chord is None or speed is None or radius is None:
+    chord = (source.at("blade shape") or {}).get("chord")
+    if chord is None or rotor_speed is None or radius is None:
         return None
-    return float(
-        0.75 * radius * speed * np.interp(0.75, chord["grid"], chord["values"]) / AIR_VISCOSITY
-    )
+    length = float(np.interp(0.75, chord["grid"], chord["values"]))
+    return 0.75 * radius * rotor_speed * length / AIR_VISCOSITY
 
 
 def polar_of(entry: dict[str, Any], reynolds: float | None) -> tuple[Any, list[float]]:
@@ -53,15 +52,15 @@ def foil_table(
     for entry in source.path("airfoils") or []:
         name = str(entry["name"])
         given = entry.get("rthick", entry.get("relative_thickness"))
-        sets, known = polar_of(entry, reynolds)
+        polar, known = polar_of(entry, reynolds)
         if len(set(known)) > 1:
             choices = ", ".join(f"{number:.3g}" for number in sorted(known))
-            assumed.append(f"airfoils.{name}: polar of Re = {sets['re']:.3g}, of {choices}")
-        if "cl" in sets:
+            assumed.append(f"airfoils.{name}: polar of Re = {polar['re']:.3g}, of {choices}")
+        if "cl" in polar:
             unit, names = _DEGREE, ("cl", "cd", "cm")
         else:
             unit, names = 1.0, ("c_l", "c_d", "c_m")
-        lift, drag, moment = (sets.get(key) for key in names)
+        lift, drag, moment = (polar.get(key) for key in names)
         grid = np.union1d(lift["grid"], drag["grid"])
         angle = np.clip(grid * unit, -np.pi, np.pi)
         angle[[0, -1]] = -np.pi, np.pi
@@ -88,8 +87,7 @@ def blade_table(
     damping: float,
 ) -> dict[str, Any] | None:
     """Sections, and the structure where the file has mass and stiffness of them."""
-    entry = source.path("components.blade") or {}
-    shape = entry.get("outer_shape", entry.get("outer_shape_bem"))
+    entry, shape = source.path("components.blade") or {}, source.at("blade shape")
     if shape is None or "hub_radius" not in rotor or "radius" not in rotor:
         return None
     axis = entry.get("reference_axis") or shape["reference_axis"]

@@ -109,6 +109,7 @@ PATHS: dict[str, Alternatives] = {
     "pitch frequency": (("control.pitch.PC_omega", 1),),
     "pitch damping": (("control.pitch.PC_zeta", 1),),
     "thrust limit": (("control.pitch.ps_percent", 1),),
+    "blade shape": (("components.blade.outer_shape", 1), ("components.blade.outer_shape_bem", 1)),
     "blade length": (
         ("components.blade.reference_axis.z.values", 1),
         ("components.blade.outer_shape_bem.reference_axis.z.values", 1),
