@@ -87,7 +87,7 @@ def extreme_value(
     """Extrapolate block maxima to the level exceeded once in `horizon` blocks.
 
     A Gumbel distribution is fitted by L-moments; the confidence interval is a parametric
-    bootstrap, which does not cover doubt about the distribution itself.
+    bootstrap-t [Hesterberg 2015], which does not cover doubt about the distribution itself.
 
     Parameters
     ----------

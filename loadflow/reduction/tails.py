@@ -223,9 +223,9 @@ def long_term_extreme(
     years : float
         Return period: IEC 61400-1 takes 50.
     confidence : float
-        Of the interval, a parametric bootstrap of the fits (bootstrap-t: misses of resampled fits
-        in their own scale; percentiles where a shape was fitted, by which that scale varies over
-        orders of magnitude); doubt about the distribution itself is not in it.
+        Of the interval, a parametric bootstrap of the fits (bootstrap-t [Hesterberg 2015]: misses
+        of resampled fits in their own scale; percentiles where a shape was fitted, by which that
+        scale varies over orders of magnitude); doubt about the distribution itself is not in it.
     seed : int
         Of the bootstrap.
 

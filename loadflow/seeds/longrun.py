@@ -112,8 +112,8 @@ def effective_size(x: Iterable[ArrayLike]) -> float:
     Returns
     -------
     float
-        Mean over the records; between 1 and the number of values. Right on average (before that
-        cap) from two records on; of one alone in the mean only, at a median of 0.6 of it.
+        Mean over the records; between 1 and the number of values. Right on average before that cap;
+        of one record alone half of the answers are below 0.6 of it.
 
     Raises
     ------

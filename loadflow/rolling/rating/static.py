@@ -85,7 +85,11 @@ def static_overload(
 
 
 def _radial_factors(bearing: RollingBearing) -> tuple[float, float]:
-    """X₀ and Y₀ of a radial bearing, ISO 76: rows in tandem have those of one row."""
+    """X₀ and Y₀ of a radial bearing, ISO 76.
+
+    It has 0.5 and Y₀ of one row, also of rows in tandem, and 1 and twice that Y₀ of two that face.
+    More facing rows have them here by how many of their rows carry a thrust.
+    """
     angle, rows = bearing.nominal_angle, getattr(bearing, "rows", 1)
     if angle == 0.0:
         return (0.6, 0.5) if bearing.kind == "ball" else (1.0, 0.0)
