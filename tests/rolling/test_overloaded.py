@@ -124,6 +124,8 @@ def test_the_overload_knows_how_many_rows_carry_a_thrust(rows, arrangement, shar
     solved = 1 / leaning.equilibrium((0.0, 0.0, push)).static_safety
     assert told == pytest.approx(solved, rel=0.15)
     assert static_overload(leaning, push, 0.0, 0.0) == pytest.approx(0.3)
+    both = static_overload(leaning, push, push, 0.0)
+    assert both == pytest.approx(0.3 * (0.5 if sharing == 1 else 1.0) + told)
 
 
 def test_rows_of_cylindrical_rollers_carry_a_radial_load_together():
