@@ -131,27 +131,21 @@ def _judged(scene, stage, tree):
     yield [one.sentence for one in verdicts(scene, {name: table}, lifetime)]
 
 
-_FILMS = {}
+_SOLVED = {}
+
+
+def solved(solve, scene, ignored):
+    """Films of a scene, once for scenes that differ in what changes verdicts and wear alone."""
+    key = solve, scene.model_dump_json(exclude=ignored)
+    if key not in _SOLVED:
+        _SOLVED[key] = solve(scene, ONE, inputs(scene))
+    return _SOLVED[key]
 
 
 def films(scene):
-    """The films of a scene, once for scenes that differ in limits: these change verdicts alone."""
-    key = scene.model_dump_json(exclude={"journal": {"limits"}, "wear": True, "lifetime": True})
-    if key not in _FILMS:
-        solve = journal.orbit if scene.journal.in_motion else journal.film
-        _FILMS[key] = solve(scene, ONE, inputs(scene))
-    return _FILMS[key]
-
-
-_COLLARS = {}
-
-
-def collars(scene):
-    """The films of thrust bearings, likewise."""
-    key = scene.model_dump_json(exclude={"thrust": {"bearings": {"__all__": {"limits"}}}})
-    if key not in _COLLARS:
-        _COLLARS[key] = thrust.films(scene, ONE, inputs(scene))
-    return _COLLARS[key]
+    """Films of journal bearings; their limits, wear and how often a year starts do not count."""
+    solve = journal.orbit if scene.journal.in_motion else journal.film
+    return solved(solve, scene, {"journal": {"limits"}, "wear": True, "lifetime": True})
 
 
 def _journal(scene):
@@ -178,7 +172,7 @@ def _rolling(scene):
 def _thrust(scene):
     if any(one.seat is not None for one in scene.thrust.collars.values()):
         yield make_plan(scene).errors["thrust.film"]
-    tree = collars(scene)
+    tree = solved(thrust.films, scene, {"thrust": {"bearings": {"__all__": {"limits"}}}})
     yield tree
     yield from _judged(scene, thrust, tree)
 
