@@ -141,16 +141,8 @@ def gumbel_parameters(x: Floats) -> tuple[Floats, Floats]:
 
     By L-moments [Hosking and Wallis 1997].
     """
-    first, second = l_moments(x)
+    from scipy.stats import lmoment  # 0.7 s of processor time, which what has no extreme saves
+
+    first, second = lmoment(x, order=[1, 2], axis=-1)
     scale = second / np.log(2.0)
     return first - np.euler_gamma * scale, scale
-
-
-def l_moments(x: Floats) -> tuple[Floats, Floats]:
-    """First two sample L-moments along the last axis: mean, and half of the mean difference.
-
-    Those of `scipy.stats.lmoment`, whose module takes a second to import.
-    """
-    count, ordered = x.shape[-1], np.sort(x, axis=-1)
-    weights = (np.arange(count) - 0.5 * (count - 1)) / (count * (count - 1))
-    return x.mean(axis=-1), (ordered - ordered[..., ::-1]) @ weights  # 0 where all are equal

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 
 from loadflow.errors import InputError
 from loadflow.reduction._series import Floats, finite
-from loadflow.reduction.extremes import block_maxima, gumbel_parameters, l_moments
+from loadflow.reduction.extremes import block_maxima, gumbel_parameters
 
 YEAR = 365.25 * 86_400.0
 LEAST = 10  # values that a fit needs
@@ -310,7 +310,9 @@ def _level(parameters: Floats, shares: Floats, wanted: float) -> Floats:
 
 def _pareto(excess: Floats) -> tuple[Floats, Floats]:
     """Scale and shape of a generalised Pareto distribution by L-moments along the last axis."""
-    first, second = l_moments(excess)
+    from scipy.stats import lmoment
+
+    first, second = lmoment(excess, order=[1, 2], axis=-1)
     shape = 2.0 - first / np.maximum(second, np.finfo(float).tiny)
     return first * (1.0 - shape), shape
 

@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
-from scipy.stats import binom, lmoment
+from scipy.stats import binom
 
 from loadflow.errors import InputError
 from loadflow.reduction import block_maxima, extreme_value
-from loadflow.reduction.extremes import l_moments
 
 
 def test_interval_covers_the_true_level_as_often_as_it_says():
@@ -50,9 +49,3 @@ def test_blocks_are_cut_along_time():
 def test_bad_input_is_named(call, message):
     with pytest.raises(InputError, match=message):
         call()
-
-
-def test_l_moments_are_those_of_scipy_and_their_spread_is_zero_of_equal_values():
-    x = np.random.default_rng(3).gumbel(50, 4, (7, 61))
-    assert np.allclose(l_moments(x), lmoment(x, order=[1, 2], axis=-1), rtol=1e-13)
-    assert l_moments(np.full(61, 0.1))[1] == 0.0
