@@ -12,10 +12,11 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.planning.accuracy import Errors, effects_left_out, expected_errors, of_link
-from loadflow.planning.effects import Estimates, concerned, is_valid, switched
+from loadflow.planning.effects import Estimates, concerned, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.section import is_valid
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS, effect_named
 from loadflow.stages.registry import STAGES, giving, models
