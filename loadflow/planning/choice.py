@@ -264,9 +264,10 @@ class _Choosing:
     ) -> tuple[list[str], list[tuple[Any, ...]], Floats]:
         """Names of sections, all combinations of these, and errors (n, 2, answers) as of `_shares`.
 
-        A link's share depends on one section. Where the links themselves depend on a section, as on
-        that of a film that moves, its alternatives are gone through one by one, and the others once
-        for each set of links.
+        A link's share depends on one section. (Whether shaft and films move together depends on
+        two: they do, wherever a plan rests the one in the other.) Where the links themselves depend
+        on a section, as on that of a film that moves, its alternatives are gone through one by one,
+        and the others once for each set of links.
         """
         stated = self.links(self.scene)
         forking = {
