@@ -16,6 +16,8 @@ from loadflow.cube import make_case
 from loadflow.errors import InputError, SolverError
 from loadflow.planning import pilot
 from loadflow.planning.asked import resting
+from loadflow.planning.choice import sections
+from loadflow.planning.effects import Estimates
 from loadflow.planning.pilot import Questions, measure
 from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import Case, list_cases
@@ -40,7 +42,7 @@ from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.frames import from_film
 from loadflow.stages.probes import Probe
-from loadflow.stages.registry import STAGES
+from loadflow.stages.registry import STAGES, models
 from loadflow.stages.shaft import bearing_loads
 
 FLOATS = [{"stiffness": "journal"}, {"stiffness": "journal"}]
@@ -459,6 +461,21 @@ def test_a_shaft_on_rigid_bearings_or_in_one_film_has_no_films_that_hold_it_back
     assert not TOGETHER.concerns(scene_of())
     assert not TOGETHER.concerns(scene_of(FLOATS, self_aligning=True))
     assert TOGETHER.concerns(scene_of(FLOATS))
+
+
+def test_a_shaft_that_a_plan_rests_in_films_moves_with_them():
+    """Whichever films it takes: it chooses them and the shaft one by one."""
+    wanted = scene_of()
+    rungs = [models()[name] for name in ("shaft", "journal")]
+    found = sections(wanted, rungs, ["shaft", "journal"], Estimates())
+    scenes = [
+        wanted.model_copy(update={"shaft": shaft, "journal": journal})
+        for shaft in found["shaft"]
+        for journal in found["journal"]
+    ]
+    resting = [one for one in scenes if one.shaft.coupled and one.journal.in_motion]
+    assert resting
+    assert all(TOGETHER.is_on(one) for one in resting)
 
 
 def test_help_against_a_tilt_left_out_is_what_it_needs_and_not_to_leave_out_the_beam():

@@ -329,10 +329,7 @@ def report(
 
 @app.command()
 def bench(
-    stages: Annotated[
-        list[str] | None,
-        typer.Argument(help="Stages; default: all."),
-    ] = None,
+    stages: Annotated[list[str] | None, typer.Argument(help="Stages; default: all.")] = None,
     as_json: AsJson = False,
 ) -> None:
     """Show the measured speed and error of every model; `benchmarks/run` measures them anew."""

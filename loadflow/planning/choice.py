@@ -12,10 +12,11 @@ import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.planning.accuracy import Errors, effects_left_out, expected_errors, of_link
-from loadflow.planning.effects import Estimates, concerned, is_valid, switched
+from loadflow.planning.effects import Estimates, concerned, switched
 from loadflow.planning.ladder import choices, expected_seconds
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.section import is_valid
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.registry import EFFECTS, effect_named
 from loadflow.stages.registry import STAGES, giving, models
@@ -263,9 +264,10 @@ class _Choosing:
     ) -> tuple[list[str], list[tuple[Any, ...]], Floats]:
         """Names of sections, all combinations of these, and errors (n, 2, answers) as of `_shares`.
 
-        A link's share depends on one section. Where the links themselves depend on a section, as on
-        that of a film that moves, its alternatives are gone through one by one, and the others once
-        for each set of links.
+        A link's share depends on one section. (Whether shaft and films move together depends on
+        two: they do, wherever a plan rests the one in the other.) Where the links themselves depend
+        on a section, as on that of a film that moves, its alternatives are gone through one by one,
+        and the others once for each set of links.
         """
         stated = self.links(self.scene)
         forking = {

@@ -6,10 +6,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pydantic import ValidationError
-
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.scene.section import is_valid
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.registry import effects_of
 from loadflow.stages.effects.rolling import overloaded
@@ -156,12 +155,3 @@ def switched(scene: Scene, effect: Effect, on: bool) -> Scene | None:
     if changed is None or effect.is_on(changed) != on:
         return None
     return changed if is_valid(changed) else None
-
-
-def is_valid(scene: Scene) -> bool:
-    """Whether the sections of a scene fit each other."""
-    try:
-        Scene.model_validate(dict(scene))
-    except ValidationError:
-        return False
-    return True

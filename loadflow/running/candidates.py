@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import ValidationError
-
 from loadflow.errors import InputError
 from loadflow.journal import Lobes
 from loadflow.numerics.fields import none_such
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate, Scene, make_scene
+from loadflow.scene.section import is_valid
 from loadflow.scene.tolerances import Tolerances
 from loadflow.scene.wear import check_wear
 
@@ -173,16 +172,8 @@ def _modelled(journal: Journal) -> Journal:
     fast = {"motion": "transient", "rung": "reduced"}
     own = {place: part.model_copy(update=fast) for place, part in journal.own.items()}
     found = journal.model_copy(update=fast | {"own": own})
-    return found if _goes_together(found) else journal
-
-
-def _goes_together(journal: Journal) -> bool:
-    """Whether the rung knows all of a bearing: a supply in the groove between lobes it does not."""
-    try:
-        Journal.model_validate(dict(journal))
-    except ValidationError:
-        return False
-    return True
+    # a supply in the groove between lobes the rung does not know
+    return found if is_valid(found) else journal
 
 
 def chosen_of(known: dict[str, Candidate], names: list[str] | None) -> dict[str, Candidate]:

@@ -9,7 +9,14 @@ from functools import reduce
 from operator import or_
 from typing import Annotated, Any, cast
 
-from pydantic import BaseModel, ConfigDict, Discriminator, GetCoreSchemaHandler, Tag
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    GetCoreSchemaHandler,
+    Tag,
+    ValidationError,
+)
 from pydantic_core import CoreSchema
 
 from loadflow.errors import InputError
@@ -57,6 +64,15 @@ class Section(BaseModel):
         """Keys whose value is not the default, also of a scene written with all its defaults."""
         known = type(self).model_fields
         return {name for name in known if getattr(self, name) != known[name].default}
+
+
+def is_valid(part: Section) -> bool:
+    """Whether the values of a part fit each other; `model_copy` does not ask."""
+    try:
+        type(part).model_validate(dict(part))
+    except ValidationError:
+        return False
+    return True
 
 
 Keys = tuple[str | int, ...]

@@ -119,7 +119,7 @@ def _unworn(scene: Scene) -> str:
 def rolling_risks(
     scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray
 ) -> Iterator[tuple[str, Number]]:
-    """Yield smallest load, smallest viscosity ratio, and standstill of rolling bearings.
+    """Yield load, smallest viscosity ratio, and standstill of rolling bearings.
 
     Load and κ are those of load cases in which the shaft runs throughout: any bearing that starts
     or stops has a κ of 0 at first, which rules of running do not mean.
@@ -130,7 +130,7 @@ def rolling_risks(
             yield name, Number(math.nan, unit, note=f"n/a: {STARTS_ALONE}")
         yield "standstill", _standing(scene, folder, table, share)
         return
-    yield "minimum_load", _lightest(scene, folder, table, groups)
+    yield "minimum_load", _lightest(scene, folder, table, share, groups)
     ratio = table["bearing_viscosity_ratio"].transpose("case", "bearing").values.astype(float)
     ratio[~runs] = math.nan
     if np.isfinite(ratio).any():
@@ -158,18 +158,23 @@ def _slowest(samples: xr.Dataset) -> float:
     return float(samples["time"].values[np.argmin(np.where(turns, speed, np.inf))])
 
 
-def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> Number:
+def _lightest(
+    scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray, groups: Groups
+) -> Number:
     """Equivalent load over the capacity that is exceeded for nearly all of the time that turns."""
     cases = table["case"].values.tolist()
-    judged = table["case"].values[runs_throughout(table)].tolist()
+    runs = runs_throughout(table)
+    share = np.where(runs, share, 0.0)
+    share = share if share.any() else runs / runs.sum()  # of extremes alone
     found: dict[str, dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]]] = {}
-    for place, case, some in _samples(scene, folder, judged):
-        load = _equilibrium(scene, place, some).equivalent_load
+    for place, case, some in _samples(scene, folder, [cases[k] for k in np.flatnonzero(share)]):
+        k, weight = cases.index(case), some["weight"].values
         turning = np.abs(some["speed"].values) >= SLOWEST
-        if turning.any():
-            load = load[turning] / scene.rolling.geometries[place].rated_capacity
-            told = some["weight"].values[turning], some["time"].values[turning]
-            found.setdefault(place, {})[cases.index(case)] = load, *told
+        if weight[turning].any():
+            load = _equilibrium(scene, place, some).equivalent_load[turning]
+            load = load / scene.rolling.geometries[place].rated_capacity
+            told = share[k] * weight[turning] / weight.sum(), some["time"].values[turning]
+            found.setdefault(place, {})[k] = load, *told
     if not found:
         return Number(math.nan, "%", note="the shaft does not turn")
 
@@ -181,7 +186,7 @@ def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> 
         return mostly_exceeded(loads, weights) / _limit(scene, place)
 
     place = min(found, key=lambda name: over_limit(name, found[name]))
-    limit, share = _limit(scene, place), over_limit(place, found[place])
+    limit, ratio = _limit(scene, place), over_limit(place, found[place])
     those = found[place]
     light = sum(float(weight[load < limit].sum()) for load, weight, _ in those.values())
     total = sum(float(weight.sum()) for _, weight, _ in those.values())
@@ -190,9 +195,9 @@ def _lightest(scene: Scene, folder: Path, table: xr.Dataset, groups: Groups) -> 
     least = int(np.argmin(load))
     low, high = interval(groups, lambda some: 100 * limit * over_limit(place, some.tolist()))
     return Number(
-        100 * limit * share, "%", low, high,
-        limit=100 * limit, holds=share >= 1, case=cases[k], time=float(time[least]),
-        place=place, note=f"of C; below the limit in {percent(light / total)} of the samples, "
+        100 * limit * ratio, "%", low, high,
+        limit=100 * limit, holds=ratio >= 1, case=cases[k], time=float(time[least]),
+        place=place, note=f"of C; below the limit in {percent(light / total)} of that time, "
         f"{percent(float(load[least]))} at least",
     )  # fmt: skip
 
@@ -264,7 +269,11 @@ def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) 
 def _samples(
     scene: Scene, folder: Path, cases: Sequence[str]
 ) -> Iterator[tuple[str, str, xr.Dataset]]:
-    """Yield place, case and reduced samples of all rolling bearings that turn with the rotor."""
+    """Yield place, case and reduced samples of all rolling bearings that turn with the rotor.
+
+    They are spread over the case; the least and the most loaded, and the slowest, are there
+    besides, with no weight.
+    """
     for place, part in scene.rolling.bearings.items():
         if part.oscillation is not None:
             continue
@@ -277,7 +286,9 @@ def _samples(
             speed = np.abs(samples["speed"].values)
             order = {int(np.argmin(size)), int(np.argmin(speed)), int(np.argmax(size))}
             spread = np.linspace(0, samples.sizes["sample"] - 1, _SPREAD).round().astype(int)
-            yield place, path.stem, samples.isel(sample=sorted({*spread.tolist(), *order}))
+            picked = sorted({*spread.tolist(), *order})
+            weight = samples["weight"].where(np.isin(np.arange(speed.size), spread), 0.0)
+            yield place, path.stem, samples.assign(weight=weight).isel(sample=picked)
 
 
 _SPREAD = 48

@@ -25,7 +25,7 @@ from loadflow.planning.accuracy import errors_beside, expected_errors
 from loadflow.planning.effects import EffectVerdict, Estimates
 from loadflow.planning.ladder import ladder
 from loadflow.planning.plan import make_plan
-from loadflow.quantities import three_digits
+from loadflow.quantities import percent, three_digits
 from loadflow.report.compare_page import _row, short, write_comparison
 from loadflow.report.moments import Moment, moment_chart
 from loadflow.report.sketch import sketch
@@ -773,26 +773,68 @@ def test_a_load_that_dips_for_a_moment_is_no_load_that_skids(brief, expected):
     assert mostly_exceeded(loads, weights) == expected
 
 
-def test_seeds_drawn_anew_may_be_those_whose_shaft_stands_alone(monkeypatch):
-    """Of two seeds the shaft turns in one: what both resample of the other has no load."""
+def lightest(monkeypatch, share, **parts):
+    """Of one bearing, from loads over its capacity and speeds of cases of one wind speed."""
     scene = make_scene({"name": "s", "bearings": ["tapered-pair"]})
     rated = scene.rolling.geometries["M"].rated_capacity
-    parts = {
-        case: xr.Dataset({name: ("sample", [one] * 3) for name, one in values.items()})
-        for case, values in {
-            "a": {"speed": 1.0, "weight": 1.0, "time": 0.0},
-            "b": {"speed": 0.0, "weight": 1.0, "time": 0.0},
-        }.items()
+    lines = {
+        case: {"load": load, "speed": speed, "weight": np.ones(len(load)), "time": load}
+        for case, (load, speed) in parts.items()
     }
+    found = [
+        ("M", case, xr.Dataset({name: ("sample", values) for name, values in own.items()}))
+        for case, own in lines.items()
+    ]
+    monkeypatch.setattr(compare_risks, "_samples", lambda *_: found)
     monkeypatch.setattr(
-        compare_risks, "_samples", lambda *_: [("M", *one) for one in parts.items()]
+        compare_risks,
+        "_equilibrium",
+        lambda *args: SimpleNamespace(equivalent_load=args[-1]["load"].values * rated),
     )
-    load = SimpleNamespace(equivalent_load=np.full(3, 0.05 * rated))
-    monkeypatch.setattr(compare_risks, "_equilibrium", lambda *_: load)
-    coords = {"dlc": ("case", ["1.1"] * 2), "wind_speed": ("case", [4.0] * 2)}
-    cases = xr.Dataset(coords={"case": ["a", "b"], **coords})
-    found = compare_risks._lightest(scene, Path(), cases, Groups.of(cases))
+    same = {"dlc": ("case", ["1.1"] * len(parts)), "wind_speed": ("case", [4.0] * len(parts))}
+    cases = xr.Dataset(coords={"case": [*parts], **same})
+    return compare_risks._lightest(scene, Path(), cases, np.array(share), Groups.of(cases))
+
+
+def test_seeds_drawn_anew_may_be_those_whose_shaft_stands_alone(monkeypatch):
+    """Of two seeds the shaft turns in one: what both resample of the other has no load."""
+    load = [0.05] * 3
+    found = lightest(monkeypatch, [0.5, 0.5], a=(load, [1.0] * 3), b=(load, [0.0] * 3))
     assert (found.value, found.low, found.high) == pytest.approx((5.0, 5.0, 5.0))
+
+
+@pytest.mark.parametrize(("rare", "expected"), [(0.04, 5.0), (0.06, 0.1)])
+def test_light_loads_count_with_the_share_of_the_lifetime_of_their_case(
+    rare, expected, monkeypatch
+):
+    """However many samples were solved of it."""
+    usual, light = ([0.05] * 3, [1.0] * 3), ([0.001] * 30, [1.0] * 30)
+    found = lightest(monkeypatch, [1 - rare, rare], a=usual, b=light)
+    assert found.value == pytest.approx(expected)
+    assert f"below the limit in {percent(rare)} of that time" in found.note
+
+
+def test_samples_that_are_solved_as_they_are_extreme_stand_for_no_time(tmp_path):
+    """One of 1000 that carries nothing is among some fifty."""
+    scene = make_scene({"name": "s", "bearings": ["tapered-pair"]})
+    count, least = 1000, 501
+    force = np.full((count, 3), 1e6)
+    force[least] = 0.0
+    part = xr.Dataset(
+        {
+            "force": (("sample", "axis"), force),
+            "moment": (("sample", "axis"), np.zeros((count, 3))),
+            "speed": ("sample", np.ones(count)),
+            "weight": ("sample", np.full(count, 4.0)),
+            "time": ("sample", np.arange(count) / 10.0),
+        }
+    )
+    (tmp_path / "reduction").mkdir()
+    part.to_netcdf(tmp_path / "reduction" / "a.h5", group="M", engine="h5netcdf")
+    [(_, _, some)] = compare_risks._samples(scene, tmp_path, ["a"])
+    assert some.sizes["sample"] == 49
+    assert some["weight"].values[some["time"].values == least / 10].tolist() == [0.0]
+    assert (some["weight"].values > 0).sum() == 48
 
 
 LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}

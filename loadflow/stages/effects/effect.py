@@ -35,7 +35,8 @@ class Effect:
         result is moved by it if one of its links names this model, or one of `also`.
     keys : tuple of str
         ``"section.key"`` of all settings that a user decides it by: it is open to the plan where
-        the scene names none of them. Empty where no scene can have it.
+        the scene names none of them. Empty where no scene can have it, or where it follows from
+        keys of other effects.
     is_on : callable
         Scene → whether it is included.
     switched : callable
