@@ -130,9 +130,12 @@ def test_pads_that_no_film_holds_are_named_and_carry_where_they_are_not_worn():
 
 
 @pytest.mark.filterwarnings("ignore:the cells do not resolve")
-@pytest.mark.parametrize("number", [44, 140, 2124, 2193])
+@pytest.mark.parametrize("number", [44, 140, 2077, 2124, 2193])
 def test_a_tilted_shaft_that_meets_an_end_of_a_pad_carries_up_to_what_is_told(number):
-    """In 44 other cells are given up: what these have told stands."""
+    """In 44 other cells are given up: what these have told stands.
+
+    In 2077 whatever is sought after the shaft has touched on its pads would be given up.
+    """
     point, solve = drawn("pads", number)
     assert "tilt" in point.film
     with pytest.raises(SolverError, match=r"touches the bore.* before the film carries") as told:
