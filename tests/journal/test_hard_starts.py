@@ -398,6 +398,17 @@ def test_a_growing_load_that_has_closed_the_ends_of_a_shell_grows_no_further(mon
     assert sum(steps) < 600  # 1574 where it grows to where none is found
 
 
+@pytest.mark.parametrize("number", [59, 255])
+def test_a_shell_is_met_where_the_path_of_the_load_ends_and_not_in_a_step_that_was_lost(number):
+    """Such a step leaves the shaft a tenth of the clearance within the shell, at another place."""
+    point, solve = drawn("shell", number)
+    with pytest.raises(SolverError, match="touches the elastic shell") as told:
+        solve()
+    gap = re.search(r"narrowest gap (\S+) m", str(told.value))
+    assert gap
+    assert abs(float(gap[1])) < 1e-5 * point.bearing.clearance
+
+
 def test_steps_in_a_shell_leave_the_gap_that_they_were_tried_for(monkeypatch):
     """Cells that fill are limited in what is tried as in what is taken, and open it no farther."""
     left: list[bool] = []
