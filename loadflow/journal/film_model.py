@@ -166,7 +166,9 @@ class Film:
     @property
     def crowds(self) -> bool:
         """Whether cells crowd at the narrowest gap and at the ends, where their places are free."""
-        return self.grading == "graded" or (self.grading == "auto" and not self.law.smooth)
+        if self.grading == "auto":  # a given matrix is that of cells even across, on all rungs
+            return not self.law.smooth and (self.shell is None or self.shell.any_grid)
+        return self.grading == "graded"
 
     @property
     def may_grade(self) -> bool:

@@ -130,9 +130,12 @@ def test_pads_that_no_film_holds_are_named_and_carry_where_they_are_not_worn():
 
 
 @pytest.mark.filterwarnings("ignore:the cells do not resolve")
-@pytest.mark.parametrize("number", [44, 140, 2124, 2193])
+@pytest.mark.parametrize("number", [44, 140, 2077, 2124, 2193])
 def test_a_tilted_shaft_that_meets_an_end_of_a_pad_carries_up_to_what_is_told(number):
-    """In 44 other cells are given up: what these have told stands."""
+    """In 44 other cells are given up: what these have told stands.
+
+    In 2077 whatever is sought after the shaft has touched on its pads would be given up.
+    """
     point, solve = drawn("pads", number)
     assert "tilt" in point.film
     with pytest.raises(SolverError, match=r"touches the bore.* before the film carries") as told:
@@ -393,6 +396,17 @@ def test_a_growing_load_that_has_closed_the_ends_of_a_shell_grows_no_further(mon
     with pytest.raises(SolverError, match="touches the elastic shell"):
         drawn("shell", 2366)[1]()
     assert sum(steps) < 600  # 1574 where it grows to where none is found
+
+
+@pytest.mark.parametrize("number", [59, 255])
+def test_a_shell_is_met_where_the_path_of_the_load_ends_and_not_in_a_step_that_was_lost(number):
+    """Such a step leaves the shaft a tenth of the clearance within the shell, at another place."""
+    point, solve = drawn("shell", number)
+    with pytest.raises(SolverError, match="touches the elastic shell") as told:
+        solve()
+    gap = re.search(r"narrowest gap (\S+) m", str(told.value))
+    assert gap
+    assert abs(float(gap[1])) < 1e-5 * point.bearing.clearance
 
 
 def test_steps_in_a_shell_leave_the_gap_that_they_were_tried_for(monkeypatch):

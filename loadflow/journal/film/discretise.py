@@ -73,10 +73,9 @@ def cylindrical_film(
     options.check_oil(*grooves)
     inlet = options.inlet_line
     require(not (inlet and supply), "inlet", options.inlet, "None where a supply is given")
-    graded = options.crowds
     radius, ratio, around = 0.5 * diameter, width / diameter, options.cells[0]
     clearance = relative_clearance * radius
-    mesh = build_mesh(ratio, options.cells, graded, inlet, supply, radius)
+    mesh = build_mesh(ratio, options.cells, options.crowds, inlet, supply, radius)
     gap = CylindricalGap(mesh) if contact is None else RoughGap(mesh, contact, clearance)
     film = DiscreteFilm(gap, *_oil(mesh, options, ratio, relative_clearance, radius, around))
     if contact is not None:
@@ -93,13 +92,10 @@ def _cells(options: Film, half: bool) -> tuple[int, int]:
 def mesh_in_bore(bearing: JournalGeometry, options: Film, half: bool) -> ShapedMesh:
     """Cells of a film in a bore of any shape, of `half` of its width or all of it."""
     bore, grid, supply = Bore.of(bearing), _cells(options, half), options.supply
-    # a given matrix is that of cells even across, at rest as in motion and on "reduced"
-    free = options.shell is None or options.shell.any_grid
-    graded = options.crowds and (free or options.grading == "graded")
     turns, places = relief_marks(bore.relief, bore.radius, bore.width)
     around, ends = groove_marks(supply.grooves if supply else (), grid[0], bore.radius)
     marks = (*turns, *around), (*places, *ends, *-ends)
-    return shaped_mesh(bearing.width_ratio, grid, half, graded, bore.segments, *marks)
+    return shaped_mesh(bearing.width_ratio, grid, half, options.crowds, bore.segments, *marks)
 
 
 def shaped_film(

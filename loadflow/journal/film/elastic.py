@@ -37,9 +37,8 @@ class ElasticFilm(DiscreteFilm):
         super().__init__(gap, *film)
         self.gap: ElasticGap = gap
         self.compliance = compliance
-        self.elastic, self.held_rigid = True, False
+        self.elastic, self.softness = True, 1.0
         self.stencil = np.empty((5, *gap.mesh.shape))
-        self._share = 1.0  # share of its compliance that the shell has
         self._all_at_once = 0.0  # work of systems that were solved so
 
     def place(self, u: Array, position: Array) -> Array:
@@ -66,7 +65,7 @@ class ElasticFilm(DiscreteFilm):
 
     def relax(self, share: float = 1.0) -> None:
         """Undo what pressure has deformed; the shell then has a `share` of its compliance."""
-        self._share, self.held_rigid = share, share == 0.0
+        self.softness = share
         self.gap.grow(np.zeros(self.mesh.shape))
 
     def further_work(self) -> float:
@@ -77,7 +76,7 @@ class ElasticFilm(DiscreteFilm):
     @property
     def _per_clearance(self) -> float:
         """Growth of the gap that counts, in clearances, over that of the shell, m."""
-        return self._share / (self.relative_clearance * self.radius)
+        return self.softness / (self.relative_clearance * self.radius)
 
     def _excess(self) -> Array:
         """Pressure of the cells (nx, nz) above that at the bearing ends, Pa."""

@@ -89,7 +89,7 @@ class DiscreteFilm:
         self.ab = band_kernel.band_storage(nx * nz, mesh.bandwidth)
         self._still = np.zeros((len(gap.coefs), nx, gap.across.shape[1]))  # growth at rest
         self.state = np.empty((8, nx, nz))
-        self.elastic, self.held_rigid = False, True  # whether the gap follows p; whether not now
+        self.elastic, self.softness = False, 0.0  # if the gap follows p; share of its compliance
         self.mirrors = 2.0 if mesh.half else 1.0
         self.unit = self.mirrors * radius**2  # of loads
         self.ambient: Array | float = 0.0  # of `_load`: what acts outside the film, N

@@ -262,7 +262,7 @@ def solve_equilibrium(
     check, change, moving = _Check(film, tolerance, motion, force, free), math.inf, motion.moves
     pressing, most = 0, math.inf
     # in motion the film before is near, and its rupture; a shell moves it though the shaft waits
-    at_once = moving or not film.held_rigid or film.law.kink == -math.inf
+    at_once = moving or film.softness > 0.0 or film.law.kink == -math.inf
     patience = math.inf if at_once else WAITS * flux_of(film)
     if film.contact is not None and film.elastic:
         most = _OVERLOADED * film.load_scale(force)

@@ -46,6 +46,7 @@ def search_on_pads(
     """
     limits = tolerance, max_iterations
     on_pads = solve_with_pads(film, gap, force, position, shaft, *limits, effort)
+    # a step to beyond the bore says nothing of where the shaft comes to
     touched = has_touched(film, on_pads) and gap.narrowest(on_pads.position) > 0.0
     if on_pads.converged or touched:
         return on_pads

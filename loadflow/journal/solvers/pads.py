@@ -64,11 +64,10 @@ def balance_pads(
         still = solve_film(film, film.start(), position, 0.0 * position, tolerance, max_iterations)
         return still, np.ones(0, dtype=bool)
     sign = math.copysign(1.0, film.speed)
-    most = np.array([gap.widest_lift(row, position, sign) for row in pads])
+    lifts, most = _lifts(film, gap, pads, position)
     if not (most > 0.0).all():  # a pad that meets the shaft however it tilts
         return replace(start, converged=False, iterations=0), np.zeros(pads.size, dtype=bool)
     low, high = _FLATTEST * most, _STEEPEST * most
-    lifts = np.array([sign * gap.lift(row, position) for row in pads])
     lifts = np.where((lifts > low) & (lifts < high), lifts, np.sqrt(low * high))
     scale = film.load_scale(np.zeros(1))
     state, moments, flat = start, np.zeros(pads.size), np.zeros(pads.size, dtype=bool)
@@ -99,6 +98,14 @@ def balance_pads(
     return replace(state, iterations=spent), (np.abs(moments) < _LEFT * scale) & ~flat
 
 
+def _lifts(film: DiscreteFilm, gap: ShapedGap, pads: Rows, position: Array) -> tuple[Array, Array]:
+    """Lifts of `pads` the way that a film tilts them, and those at which they meet the shaft."""
+    sign = math.copysign(1.0, film.speed)
+    lifts = [sign * gap.lift(row, position) for row in pads.tolist()]
+    most = [gap.widest_lift(row, position, sign) for row in pads.tolist()]
+    return np.array(lifts), np.array(most)
+
+
 def _over_pivots(gap: ShapedGap, position: Array) -> Array:
     """Gaps over the pivots of flat pads, clearances, without relief."""
     return np.asarray(1.0 - gap.pivots @ position[:2])
@@ -106,10 +113,8 @@ def _over_pivots(gap: ShapedGap, position: Array) -> Array:
 
 def flat_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows, position: Array) -> Rows:
     """Those of `pads` that lie flat at `position`, as a film turns them that does not hold them."""
-    sign = math.copysign(1.0, film.speed)
-    lifts = [sign * gap.lift(row, position) for row in pads.tolist()]
-    most = [gap.widest_lift(row, position, sign) for row in pads.tolist()]
-    return pads[np.array(lifts) < _FLAT * np.array(most)]
+    lifts, most = _lifts(film, gap, pads, position)
+    return pads[lifts < _FLAT * most]
 
 
 def unload_other_pads(film: DiscreteFilm, gap: ShapedGap, pads: Rows) -> None:
