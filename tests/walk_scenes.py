@@ -7,7 +7,7 @@ cheap ones do, as each key costs a solution. Words in capitals are files that `f
 import numpy as np
 from synthetic import cube_file
 
-WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1}
+WIND = {"wind_speeds": [12.0, 14.0], "duration": 3.0, "step": 0.1, "wind_grid": [3, 8]}
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,
          "groove_radius": 0.0312, "contact_angle": 0.8, "shoulder_angle": 1.2}  # fmt: skip
 TAPERED = {"kind": "roller", "rollers": 20, "slices": 6, "roller_diameter": 0.07,
@@ -23,7 +23,9 @@ BASES = {
     "gust": {"loads": WIND | {"dlc": "1.5", "rung": "flap"}},
     "tables": {"loads": WIND | {"seeds": 1, "rung": "tables"}},
     "stop": {"loads": WIND | {"dlc": "4.1", "rung": "tables"}},
-    "parked": {"loads": {"dlc": "6.1", "seeds": 1, "duration": 3.0, "step": 0.1}},
+    "parked": {
+        "loads": {"dlc": "6.1", "seeds": 1, "duration": 3.0, "step": 0.1, "wind_grid": [3, 8]},
+    },
     "class S": {
         "loads": WIND | {"seeds": 1, "rung": "tables", "wind_class": "S", "v_ref": 45.0,
                          "v_ave": 9.0, "category": "S", "reference_intensity": 0.15},

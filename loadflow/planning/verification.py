@@ -33,11 +33,10 @@ def differences(scene: Scene, cases: list[Case], inputs: Mapping[str, Any]) -> x
     Cells have an order, so that a film is off by more than the next finer one moves it, see
     `loadflow.planning.accuracy.error_by_change`.
     """
-    found = [
-        row
-        for case in cases
-        for row in compare(scene, case, inputs[case.name], _sure(scene, case, inputs[case.name]))
-    ]
+    found: list[Difference] = []
+    for case in cases:
+        parts = inputs[case.name]  # read once
+        found += compare(scene, case, parts, _sure(scene, case, parts))
     text = ("stage", "result", "quantity", "case", "against")
     return xr.Dataset(
         {

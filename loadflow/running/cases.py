@@ -61,6 +61,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
     that refuses concern them all, and are raised.
     """
     done = Outcome()
+    opened: dict[str, Any] = {}  # to read a small part takes longer than many a stage
     for step in steps:
         name, target = step.name, part_file(folder, step.name, case)
         if target.exists() or not is_ready(step, case, folder):
@@ -68,7 +69,7 @@ def do_case(case: Case, scene: Scene, steps: tuple[Step, ...], folder: Path) -> 
         begun, worked = time.perf_counter(), time.process_time()
         with Compiling() as compiling, watched() as parts:
             try:
-                result = step.stage.run(scene, case, open_inputs(step, case, folder))
+                result = step.stage.run(scene, case, open_inputs(step, case, folder, opened))
             except SolverError as error:
                 done.failures[f"{case.name}, {name}"] = str(error)
                 continue
@@ -107,9 +108,18 @@ def is_ready(step: Step, case: Case, folder: Path) -> bool:
     return all(part_file(folder, need, case).exists() for need in step.needs)
 
 
-def open_inputs(step: Step, case: Case, folder: Path) -> dict[str, Any]:
-    """Read what the stage wants of this case; parts were checked when the run began."""
-    return {need: read_whole(part_file(folder, need, case)) for need in step.needs}
+def open_inputs(
+    step: Step, case: Case, folder: Path, opened: dict[str, Any] | None = None
+) -> dict[str, Any]:
+    """Read what the stage wants of this case; parts were checked when the run began.
+
+    What is in `opened`, by stage, is not read again, and what is read is put there.
+    """
+    opened = {} if opened is None else opened
+    for need in step.needs:
+        if need not in opened:
+            opened[need] = read_whole(part_file(folder, need, case))
+    return {need: opened[need] for need in step.needs}
 
 
 class OpenedLate(Mapping[Key, Opened]):

@@ -168,13 +168,15 @@ def _against_bores(found: xr.Dataset) -> xr.Dataset:
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Largest loads of each place in each case; also how shaft and bearings agree, if iterated."""
-    iterated = all("converged" in part for part in parts.values())
-    return over_cases(
-        {
-            case: _largest(part).merge(_agreement(part)) if iterated else _largest(part)
-            for case, part in parts.items()
-        }
-    )
+    largest: dict[Case, xr.Dataset] = {}
+    agreement: dict[Case, xr.Dataset] = {}
+    for case, part in parts.items():  # each is read once
+        largest[case] = _largest(part)
+        if "converged" in part:
+            agreement[case] = _agreement(part)
+    if len(agreement) == len(largest):
+        largest = {case: found.merge(agreement[case]) for case, found in largest.items()}
+    return over_cases(largest)
 
 
 def _largest(part: xr.Dataset) -> xr.Dataset:

@@ -52,8 +52,9 @@ def wear(scene: Scene, cases: list[Case], inputs: Mapping[str, dict[str, Any]]) 
         for case, count in zip(cases, times):
             if count == 0.0:
                 continue
-            film = inputs[case.name]["journal"][name].to_dataset().load()
-            loads, shaft = (inputs[case.name][key].load() for key in ("loads", "shaft"))
+            parts = inputs[case.name]  # read once
+            film = parts["journal"][name].to_dataset().load()
+            loads, shaft = (parts[key].load() for key in ("loads", "shaft"))
             asked = scene, options, film, loads, shaft.sel(bearing=name)
             some = cycles_of(case.dlc, *asked)
             for number, one in enumerate(some, start=1):

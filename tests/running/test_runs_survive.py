@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import time
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,6 +17,7 @@ import workers
 from small_run import contents, small_scene
 
 from benchmarks.robustness import kills
+from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import FormerVersionWarning, InputError, LoadflowError, NewerVersionError
 from loadflow.planning.effects import EffectVerdict
 from loadflow.planning.plan import EffectInPlan, make_plan
@@ -209,6 +211,22 @@ def test_a_part_says_which_settings_it_belongs_to(finished, tmp_path):
     save_part(xr.Dataset({"a": ("x", [1.0, 2.0])}), tmp_path / "a.h5", "ab" * 32)
     assert digest_of(tmp_path / "a.h5") == "ab" * 32
     assert digest_of(finished / "loads.h5") is None  # a file of somebody else
+
+
+def test_each_part_is_read_once_by_whoever_works_on_it(tmp_path, monkeypatch):
+    """By its case, by the check, and by the summary of its stage."""
+    reads = Counter()
+
+    def counted(path):
+        reads[path.parent.name, path.stem] += 1
+        return read_whole(path)
+
+    for place in ("cases", "whole"):
+        monkeypatch.setattr(f"loadflow.running.{place}.read_whole", counted)
+    run(small_scene(tmp_path), out=tmp_path / "runs", report=False)
+    names = ("dlc1.1_v12_s1", "dlc1.1_v8_s1")
+    times = {"loads": 3, "shaft": 3, "reduction": 1}  # of reductions there is no summary
+    assert reads == {(stage, name): n for stage, n in times.items() for name in names}
 
 
 # --- names -----------------------------------------------------------------------------------
