@@ -371,7 +371,13 @@ def test_a_folder_that_is_removed_meanwhile_is_named(finished, tmp_path, gone):
 # --- processes -------------------------------------------------------------------------------
 
 
-def test_a_killed_worker_costs_the_item_that_kills_it_and_no_other(caplog):
+@pytest.fixture
+def bare(monkeypatch):
+    """Worker processes that read none of the modules of a run before they are asked."""
+    monkeypatch.setattr(f"{usable_cores.__module__}._read_modules", workers.idle)
+
+
+def test_a_killed_worker_costs_the_item_that_kills_it_and_no_other(bare, caplog):
     items = [1, 2, 3, 13, 4, 5, 6, 7]
     with executor(2, None) as where:
         found = dict(where.outcomes(workers.doubled, items))
@@ -380,14 +386,14 @@ def test_a_killed_worker_costs_the_item_that_kills_it_and_no_other(caplog):
     assert "go on with 1 processes" in caplog.text
 
 
-def test_warnings_of_workers_are_words_without_a_line_of_code(capfd):
+def test_warnings_of_workers_are_words_without_a_line_of_code(bare, capfd):
     with executor(2, None) as where:
         assert sorted(found for _, found in where.outcomes(workers.doubted, [1, 2])) == [1, 2]
     told = [line for line in capfd.readouterr().err.splitlines() if line.strip()]
     assert sorted(told) == ["warning: film 1 is thin", "warning: film 2 is thin"]
 
 
-def test_workers_that_never_live_end_the_run():
+def test_workers_that_never_live_end_the_run(bare):
     with (
         executor(2, None) as where,
         pytest.raises(LoadflowError, match="killed one after another"),

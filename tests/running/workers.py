@@ -14,6 +14,10 @@ def doubled(item):
     return 2 * item
 
 
+def idle(_):
+    """Nothing."""
+
+
 def always_killed(item):
     os.kill(os.getpid(), signal.SIGKILL)
 
