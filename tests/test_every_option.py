@@ -15,6 +15,7 @@ from synthetic import cube_file
 from loadflow.cli import main
 from loadflow.cli.base import app
 from loadflow.cube import iter_cases, make_cube, open_cube, save_cube
+from loadflow.journal import Film
 from loadflow.scene.scene import Scene
 from loadflow.shaft import TwoPoint, bearing_loads
 
@@ -22,7 +23,7 @@ COMMAND = typer.main.get_command(app)
 
 JOURNAL = ["--diameter=3", "--width=2.25", "--relative-clearance=5e-4", "--force-x=1e6",
            "--speed-rpm=12", "--grid", "24", "8"]  # fmt: skip
-BALLS = ["--balls=60", "--ball-diameter=0.06", "--pitch-diameter=2", "--groove-radius=0.0315",
+BALLS = ["--balls=30", "--ball-diameter=0.06", "--pitch-diameter=2", "--groove-radius=0.0315",
          "--force-z=1e6", "--moment-y=1e6"]  # fmt: skip
 PADS = 'geometry.shape={kind="tilting pads", count=2, arc=2.8}'
 COLLAR = ["--pads=8", "--inner-radius=0.8", "--outer-radius=1.2", "--pad-angle-deg=40",
@@ -229,7 +230,16 @@ def undrawn(monkeypatch):
 
 
 @pytest.fixture
-def call(words, tmp_path, capsys, monkeypatch, undrawn):
+def coarse(monkeypatch):
+    """Films of the rig, which has no option for their cells, on few of them."""
+    monkeypatch.setattr(
+        "loadflow.studies.crank_rig.Film",
+        lambda *told, grid, **more: Film(*told, grid=(24, 8), **more),
+    )
+
+
+@pytest.fixture
+def call(words, tmp_path, capsys, monkeypatch, undrawn, coarse):
     """Arguments of a command → exit code, what it says, and a fingerprint of all that it did."""
     handed = []
 
