@@ -152,7 +152,7 @@ def test_fresh_oil_mixes_in_grooves_as_on_the_grid(supply, more, line):
 
 @pytest.mark.parametrize("given", [{}, {"step": "adaptive"}, {"periodic": True}])
 def test_a_path_beside_a_pocket_is_that_of_the_grid(given):
-    time = np.linspace(0.0, 0.1, 21)
+    time = np.linspace(0.0, 0.1, 11)
     loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
     loads[-1] = loads[0]
     own, grid = (
@@ -165,7 +165,7 @@ def test_a_path_beside_a_pocket_is_that_of_the_grid(given):
 
 
 def test_a_closed_path_between_lobes_is_that_of_the_grid():
-    time = np.linspace(0.0, 0.1, 21)
+    time = np.linspace(0.0, 0.1, 11)
     loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
     loads[-1] = loads[0]
     bearing = replace(BEARING, shape=Lobes(2))
@@ -236,7 +236,7 @@ def test_stiffness_is_the_slope_of_the_force_at_the_viscosity_of_the_film():
     ("heat", "step"), [(HEAT, "given"), (replace(GROWS, points=3), "given"), (GROWS, "adaptive")]
 )
 def test_a_path_is_that_of_the_grid_and_keeps_its_temperatures(heat, step):
-    time = np.linspace(0.0, 0.1, 21)
+    time = np.linspace(0.0, 0.1, 11)
     loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
     own, grid = (
         BEARING.orbit(time, loads, SPEED, film(rung, FINE, heat), step=step)
@@ -255,7 +255,7 @@ def test_a_path_is_that_of_the_grid_and_keeps_its_temperatures(heat, step):
 
 @pytest.mark.parametrize("heat", [HEAT, replace(GROWS, points=4)])
 def test_a_closed_path_with_shell_and_asperities_closes(heat):
-    time = np.linspace(0.0, 0.1, 21)
+    time = np.linspace(0.0, 0.1, 11)
     loads = LOAD + np.outer(np.sin(2 * np.pi * time / 0.1), [2e4, 1e4])
     loads[-1] = loads[0]
     options = film(heat=heat, contact=ROUGH, shell=LocalShell(1e-12))
