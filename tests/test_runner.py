@@ -143,7 +143,9 @@ def test_two_processes_give_the_numbers_of_one(tmp_path):
     assert_same(one, two)
 
 
+@pytest.mark.slow
 def test_a_dask_cluster_gives_the_numbers_of_one_process(cube, finished, tmp_path):
+    """Of films, too; `running/test_commands_stop.py` has the shorter one, which loses a worker."""
     distributed = pytest.importorskip("dask.distributed")
     with distributed.LocalCluster(
         n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None
