@@ -24,7 +24,7 @@ from loadflow.journal.models._composed_gap_kernels import (
 from loadflow.journal.models._of_effects import of_shell
 from loadflow.journal.models._shell_growth_kernels import load_of, open_by, respond
 from loadflow.journal.models._shell_step_kernels import follow_place
-from loadflow.journal.models._supply_kernels import hold_in_matrix, hold_points
+from loadflow.journal.models._supply_kernels import FIRST, SECOND, hold_in_matrix, hold_points
 from loadflow.numerics.lanes import LANES, larger, magnitude, put, spread, take
 
 
@@ -82,7 +82,7 @@ def balance(film, work, wedge, rate):
     for k in range(m):
         largest = max(largest, row[k])
     if film.held.on:  # first: what a whole column feeds is what it is missing
-        largest = hold_points(film, work, 0, 1, rate)
+        largest = hold_points(film, work, FIRST, SECOND, rate)
     if ring.shaped:
         largest = _hold_grooves(film, columns, 0, 1)
     unit, z = ring.area, film.nodes.z
@@ -144,7 +144,7 @@ def slopes_of_balance(film, work, wedge, rate, size):
                     put(columns, 4 * block + here, take(columns, 4 * block + here) + x * z_at)
             before, c_before, s_before = after, c, s
     if film.held.on:
-        hold_points(film, work, 1, 1 + size, rate)
+        hold_points(film, work, SECOND, 1 + size, rate)
     if ring.shaped:
         _hold_grooves(film, columns, 1, 5)
     follow_place(film, work, wedge, rate, size)

@@ -47,6 +47,7 @@ from loadflow.journal.models._shell_step_kernels import EXACT, NEAR, follow_shel
 from loadflow.journal.models._small_systems import solve_system
 from loadflow.journal.models._step_kernels import lay_at, leaves_room, longer_step
 from loadflow.journal.models._supply_kernels import (
+    FRESH,
     answers_of_grooves,
     displaced_by,
     follow_grooves,
@@ -278,7 +279,7 @@ def _finish(film, work, q, speed, size, stiffness, damping):
     columns = answers_of_grooves(film, work, 1 + size)
     substitute(work.matrix, work.columns, columns)
     follow_shell(film, work, wedge, 0.0, columns, EXACT)
-    follow_grooves(film, work, wedge, 0.0, size, True)
+    follow_grooves(film, work, wedge, 0.0, size, FRESH)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):
@@ -305,7 +306,7 @@ def _finish(film, work, q, speed, size, stiffness, damping):
                 work.columns[1 + a, i, k] = held * (modes[a] + work.columns[1 + a, i, k])
     substitute(work.matrix, work.columns, 1 + size)
     follow_shell(film, work, wedge, 0.0, 1 + size, EXACT)
-    follow_grooves(film, work, wedge, 0.0, size, True)
+    follow_grooves(film, work, wedge, 0.0, size, FRESH)
     carry(film, work, size)
     for a in range(size):
         for b in range(size):

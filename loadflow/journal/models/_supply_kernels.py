@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from loadflow.journal.cavitation import DFILL, DP, FILL
 from loadflow.journal.film.feed import mismatch_of
 from loadflow.journal.models._compile import inner, within
@@ -11,6 +13,10 @@ from loadflow.journal.models._thickening_kernels import pressure_at, thickness_a
 from loadflow.journal.supply import at_pump
 
 _mismatch, _at_pump = within(mismatch_of), inner(at_pump)
+
+# numbers of NumPy: of one that is written out, numba compiles a kind of its own
+FIRST, SECOND = np.arange(2)  # columns
+FRESH = np.True_
 
 
 @inner
