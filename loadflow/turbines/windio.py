@@ -7,6 +7,7 @@ that both are checked in one way, and what a file lacks can be given beside it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -33,6 +34,8 @@ _OVERSPEED = 1.5  # of the reference speed: no turbulence of a design load case 
 _BRAKE = 1.15  # of the rated torque
 _TORQUE_RESERVE = 1.1  # of the largest torque over the rated one, as controllers of Task 37 have it
 _FILTER = 0.25  # Hz, corner of the filter of the speed, that of the NREL 5 MW
+_FLOAT = re.compile(r"[-+]?(\.\d+|\d+(\.\d*)?)[eE][-+]?\d+$")
+"""Numbers of YAML 1.2 that PyYAML takes for text, such as 1e-05."""
 _LOWEST_SPEED = 0.4  # of the reference speed, where a file states none
 
 
@@ -124,11 +127,16 @@ def _parsed(path: Path, time: int, size: int) -> Any:
                 del self.anchors[anchor]
             return super().compose_node(parent, index)
 
+    class Fast(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
+        """The same, which takes each anchor once."""
+
+    for loader in (Loader, Fast):
+        loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, list("-+.0123456789"))
     try:
         text = path.read_text(encoding="utf-8")
         try:
-            return yaml.load(text, getattr(yaml, "CSafeLoader", Loader))
-        except yaml.composer.ComposerError:  # the fast loader takes each anchor once
+            return yaml.load(text, Fast)
+        except yaml.composer.ComposerError:
             return yaml.load(text, Loader)
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not a YAML file: {error}") from error
@@ -177,7 +185,7 @@ def _described(
     radius = rotor.get("radius")
     reynolds = reynolds_number(source, radius, _rated_rotor_speed(source, radius))
     found["airfoils"], thicknesses = foil_table(source, reynolds, assumed)
-    blade = blade_table(source, rotor, thicknesses, sections, damping)
+    blade = blade_table(source, rotor, found["airfoils"], thicknesses, sections, damping)
     _put(found, "blade", blade or None)
     found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}
     merged = _merged(found, beside)  # what is beside counts in what follows from it
