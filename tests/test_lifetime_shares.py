@@ -154,6 +154,20 @@ def test_starts_leave_the_tail_of_production_in_the_same_wind_as_it_is():
         )
 
 
+@pytest.mark.parametrize("tail", ["maxima", "peaks"])
+def test_a_short_seed_takes_no_data_from_the_tail_of_the_long_ones(tail):
+    """600 s have 60 blocks; 5 s have none, and 55 s have 5."""
+    options = LifetimeOptions(block=10.0, tail=tail)
+    long = series("1.2", 8.0, 1e5, 1.0)
+    alone = next(iter(lifetimes([long], options))).tails["1.2", 8.0]
+    for steps, more in ((10, 0), (110, 5)):
+        cut = {key: getattr(long, key)[:steps] for key in ("time", "speed", "force", "moment")}
+        both = next(iter(lifetimes([long, replace(long, case="short", **cut)], options)))
+        found = both.tails["1.2", 8.0]
+        assert found.count >= alone.count + (more if tail == "maxima" else 0)
+        assert found.threshold == pytest.approx(alone.threshold, rel=0.01)
+
+
 def test_counted_events_and_given_weights_do_damage():
     parts = [series("1.2", 8.0, 1e5, 0.5), series("3.1", 8.0, 9e5, 0.5)]
     counted = next(iter(lifetimes(parts, LifetimeOptions(per_year={"3.1": 1000.0}))))

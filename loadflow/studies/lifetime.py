@@ -256,9 +256,8 @@ def _tails(
         groups.setdefault(_population(part), []).append(k)
     found = {}
     for one, members in sorted(groups.items()):
-        shortest = min(resultants[k].size for k in members)
-        x = np.stack([resultants[k][:shortest] for k in members])
         dt = float(parts[members[0]].time[1] - parts[members[0]].time[0])
+        x = [resultants[k] for k in members if resultants[k].size >= round(options.block / dt)]
         try:
             if options.tail == "maxima":
                 found[one] = tail_of_maxima(x, dt, options.block)
