@@ -33,6 +33,7 @@ _CENTRE = 1e-3  # m, of a shaft without a hub radius
 _OVERSPEED = 1.5  # of the reference speed: no turbulence of a design load case reaches it
 _BRAKE = 1.15  # of the rated torque
 _TORQUE_RESERVE = 1.1  # of the largest torque over the rated one, as controllers of Task 37 have it
+_SHORT_OF = 0.9  # of the rated power: so much a torque of the rotor makes at least
 _FILTER = 0.25  # Hz, corner of the filter of the speed, that of the NREL 5 MW
 _FLOAT = re.compile(r"[-+]?(\.\d+|\d+(\.\d*)?)[eE][-+]?\d+$")
 """Numbers of YAML 1.2 that PyYAML takes for text, such as 1e-05."""
@@ -285,7 +286,7 @@ def _control(
         mechanical = _mechanical(source, merged, reference, gear, assumed)
         _put(control, "rated_mechanical_power", mechanical)
         mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
-        torque = source.number("largest torque")
+        torque = _largest_torque(source, power, rotor_speed, gear)
         if torque is not None:
             control["maximum_torque"] = torque / gear
         elif mechanical is not None:
@@ -335,7 +336,7 @@ def _mechanical(
         efficiency = generator * (source.number("gearbox efficiency") or 1.0)
     if efficiency is not None:
         return float(power / efficiency)
-    torque = source.number("largest torque")
+    torque = _largest_torque(source, power, reference / gear, gear)
     if torque is None:
         source.hints["control.rated_mechanical_power"] = (
             "the file has no efficiency of the generator; drivetrain.efficiency gives it, too"
@@ -352,6 +353,16 @@ def _mechanical(
         f"taken for {_TORQUE_RESERVE} × the rated one"
     )
     return float(mechanical)
+
+
+def _largest_torque(
+    source: Source, power: float | None, rotor_speed: float, gear: float
+) -> float | None:
+    """Largest torque at the rotor, N m: one too small for the rated power is the generator's."""
+    torque = source.number("largest torque")
+    if torque is None or power is None or torque * rotor_speed >= _SHORT_OF * power:
+        return torque
+    return torque * gear
 
 
 def _gains(source: Source, control: dict[str, Any], gear: float) -> None:

@@ -158,6 +158,19 @@ def test_mass_between_the_stations_of_the_stiffness_is_not_lost(document, read, 
     assert found.blade.mass == pytest.approx(read.blade.mass, rel=1e-12)
 
 
+def test_a_largest_torque_of_the_generator_is_that_of_the_rotor_over_the_gear(
+    document, read, tmp_path
+):
+    """Geared files give it on either side; mistaken, power is a 50th of what is rated."""
+    beside = {"drivetrain": {"gear_ratio": 50.0, "efficiency": 0.95}}
+    document["components"]["drivetrain"]["gearbox"]["gear_ratio"] = 50.0
+    largest = 1.2 * 15e6 / read.rated_speed
+    for given in (largest, largest / 50):
+        document["control"]["max_gen_torque"] = given
+        found = from_windio(written(document, tmp_path / "geared.yaml"), beside=beside)
+        assert found.control.maximum_torque == pytest.approx(largest / 50)
+
+
 def test_a_downwind_rotor_is_refused(document, tmp_path):
     document["assembly"]["rotor_orientation"] = "Downwind"
     with pytest.raises(InputError, match="rotor_orientation = 'Downwind' is not allowed"):
