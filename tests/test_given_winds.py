@@ -1,6 +1,7 @@
 """Scenes whose rotor flies through wind fields of the user's own."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,8 +10,9 @@ import loadflow as lf
 from loadflow.errors import InputError
 from loadflow.planning.plan import make_plan
 from loadflow.rotor import simulate
+from loadflow.scene.given_winds import given_field
 from loadflow.scene.scene import make_scene
-from loadflow.wind import WindOptions, kaimal_box, read_bts, rotor_grid, write_bts
+from loadflow.wind import WindOptions, condition, kaimal_box, read_bts, rotor_grid, write_bts
 from loadflow.wind.options import Machine
 
 NREL_5MW = Machine(cut_in=3, rated=11.4, cut_out=25, rotor_diameter=126, hub_height=90)
@@ -34,6 +36,15 @@ def scene_of(*winds, accuracy=0.05, **loads):
     return make_scene(
         {"name": "own-wind", "accuracy": accuracy, "loads": loads, "results": ["loads.statistics"]}
     )
+
+
+def test_a_field_of_another_hub_is_doubted(folder):
+    winds, case = WindOptions(), condition("1.1", NREL_5MW, wind_speed=9.0)
+    for hub, said in ((90.0, ""), (95.0, ""), (119.0, "hub of the field at 90 m, that of the")):
+        machine = replace(NREL_5MW, hub_height=hub)
+        mean, _, doubt = given_field(folder / "other.bts", case, winds, machine, 15.0)
+        assert mean.wind_speed == pytest.approx(9.2)
+        assert (said in doubt) if said else (doubt == "")
 
 
 def test_each_field_is_a_case_named_as_its_file_says(folder):

@@ -1,6 +1,7 @@
 """Shares of the lifetime of several design load cases are shares of its time."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from loadflow.scene.unused import unused_keys
 from loadflow.stages import wear
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.lifetime import LifetimeOptions, lifetimes
-from loadflow.studies.lifetime_page import share_warnings
+from loadflow.studies.lifetime_page import exceedances, share_warnings
 from loadflow.studies.run_lifetime import case_shares, energy_per_year, run_lifetime
 from loadflow.wind import Machine, conditions
 
@@ -132,7 +133,39 @@ def test_an_event_without_a_number_does_no_damage_and_is_named():
     assert both.left_out == ("3.1",)
     assert "3.1" in share_warnings([both])[0]
     assert share_warnings([alone]) == []
-    assert both.tails[8.0].threshold == alone.tails[8.0].threshold
+    assert both.tails == alone.tails
+
+
+def test_starts_leave_the_tail_of_production_in_the_same_wind_as_it_is():
+    parts = [series("1.2", 8.0, 1e5, 1.0), series("3.1", 8.0, 3e5, 1.0)]
+    start = parts[1]
+    short = replace(start, **{key: getattr(start, key)[:100] for key in ("time", "speed", "force")})
+    options = LifetimeOptions(block=10.0, per_year={"3.1": 1000.0})
+    alone = next(iter(lifetimes(parts[:1], LifetimeOptions(block=10.0))))
+    for events, names in ((short, ["8"]), (start, ["1.2, 8", "3.1, 8"])):
+        both = next(iter(lifetimes([parts[0], events], options)))
+        assert both.tails["1.2", 8.0] == alone.tails["1.2", 8.0]
+        assert both.tail_names == names
+        np.testing.assert_allclose(both.tail_shares, both.shares[: len(names)], rtol=1e-12)
+        drawn = exceedances(both, options)
+        np.testing.assert_allclose(
+            drawn["rate"][0],
+            both.shares[0] * alone.tails["1.2", 8.0].rate_above(drawn["level"]) * YEAR,
+        )
+
+
+@pytest.mark.parametrize("tail", ["maxima", "peaks"])
+def test_a_short_seed_takes_no_data_from_the_tail_of_the_long_ones(tail):
+    """600 s have 60 blocks; 5 s have none, and 55 s have 5."""
+    options = LifetimeOptions(block=10.0, tail=tail)
+    long = series("1.2", 8.0, 1e5, 1.0)
+    alone = next(iter(lifetimes([long], options))).tails["1.2", 8.0]
+    for steps, more in ((10, 0), (110, 5)):
+        cut = {key: getattr(long, key)[:steps] for key in ("time", "speed", "force", "moment")}
+        both = next(iter(lifetimes([long, replace(long, case="short", **cut)], options)))
+        found = both.tails["1.2", 8.0]
+        assert found.count >= alone.count + (more if tail == "maxima" else 0)
+        assert found.threshold == pytest.approx(alone.threshold, rel=0.01)
 
 
 def test_counted_events_and_given_weights_do_damage():

@@ -115,8 +115,8 @@ def tail_of_maxima(x: ArrayLike, dt: float, block: float) -> Tail:
 
     Parameters
     ----------
-    x : array_like, shape (..., n)
-        Series of one wind speed, along the last axis.
+    x : array_like, shape (..., n), or list of array_like, shape (n_i,)
+        Series of one wind speed, along the last axis; in a list they may be of several lengths.
     dt : float
         Time step in s.
     block : float
@@ -140,7 +140,7 @@ def tail_of_maxima(x: ArrayLike, dt: float, block: float) -> Tail:
     >>> tail.kind, tail.count
     ('maxima', 60)
     """
-    maxima = block_maxima(x, dt, block)
+    maxima = np.concatenate([block_maxima(row, dt, block) for row in _rows(x)])
     _enough(maxima, "blocks")
     location, scale = (float(v) for v in gumbel_parameters(maxima))
     return Tail(location, _positive(scale), 0.0, 1.0 / (round(block / dt) * dt), maxima.size)
@@ -157,8 +157,8 @@ def tail_of_peaks(
 
     Parameters
     ----------
-    x : array_like, shape (..., n)
-        Series of one wind speed, along the last axis.
+    x : array_like, shape (..., n), or list of array_like, shape (n_i,)
+        Series of one wind speed, along the last axis; in a list they may be of several lengths.
     dt : float
         Time step in s.
     quantile : float
@@ -185,13 +185,12 @@ def tail_of_peaks(
     >>> abs(tail.shape) < 0.1, abs(tail.scale - 1) < 0.1
     (True, True)
     """
-    series = finite("x", x)
+    rows = _rows(x)
     if not 0 < quantile < 1:
         raise InputError(f"quantile = {quantile}; allowed: 0 < quantile < 1")
     if not (dt > 0 and separation >= dt):
         raise InputError(f"separation = {separation} s; allowed: at least the time step, {dt} s")
-    threshold = float(np.quantile(series, quantile))
-    rows = series.reshape(-1, series.shape[-1])
+    threshold = float(np.quantile(np.concatenate(rows), quantile))
     apart = round(separation / dt)
     peaks = np.concatenate([_peaks(row, threshold, apart) for row in rows])
     _enough(peaks, "peaks over the threshold")
@@ -201,7 +200,7 @@ def tail_of_peaks(
         scale, fitted = float(peaks.mean()) - threshold, 0.0
     else:
         raise InputError(f"shape = {shape!r}; allowed: 0, None")
-    rate = peaks.size / (series.size * dt)
+    rate = peaks.size / (sum(row.size for row in rows) * dt)
     return Tail(threshold, _positive(scale), fitted, rate, peaks.size, "peaks")
 
 
@@ -315,6 +314,16 @@ def _pareto(excess: Floats) -> tuple[Floats, Floats]:
     first, second = lmoment(excess, order=[1, 2], axis=-1)
     shape = 2.0 - first / np.maximum(second, np.finfo(float).tiny)
     return first * (1.0 - shape), shape
+
+
+def _rows(x: ArrayLike) -> list[Floats]:
+    """Series along the last axis, one by one."""
+    if isinstance(x, list) and x and all(np.ndim(row) == 1 for row in x):
+        return [finite("x", row) for row in x]
+    series = np.atleast_1d(finite("x", x))
+    if series.size == 0:
+        raise InputError("x: there are no values")
+    return list(series.reshape(-1, series.shape[-1]))
 
 
 def _peaks(x: Floats, threshold: float, apart: int) -> Floats:

@@ -158,19 +158,19 @@ def markov(matrix: xr.Dataset) -> str:
 
 
 def tails(found: xr.Dataset) -> Figure:
-    """Draw how often each wind speed exceeds a level, and their sum over the lifetime.
+    """Draw how often each tail exceeds a level, and their sum over the lifetime.
 
     Parameters
     ----------
     found : xarray.Dataset
-        `rate` (wind_speed, level) and `total` (level) in 1/year, coordinate `level`; attributes
-        `value`, `low`, `high` in the unit of the level, `years`.
+        `rate` (tail, level) and `total` (level) in 1/year, coordinates `tail`, which names a wind
+        speed, and `level`; attributes `value`, `low`, `high` in the unit of the level, `years`.
     """
     drawing, axis = figure(height=2.8)
     level, unit = readable(found["level"])
     factor = level[-1] / found["level"].values[-1]
-    for speed in found["wind_speed"].values:
-        axis.plot(level, found["rate"].sel(wind_speed=speed), lw=0.7, label=f"{speed:g} m/s")
+    for name in found["tail"].values:
+        axis.plot(level, found["rate"].sel(tail=name), lw=0.7, label=f"{name} m/s")
     axis.plot(level, found["total"], color="black", lw=1.4, label="all")
     axis.axhline(1 / found.attrs["years"], color="black", lw=0.7, ls="--")
     bounds_of = [found.attrs[key] * factor for key in ("low", "high")]

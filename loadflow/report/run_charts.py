@@ -100,22 +100,19 @@ def duration_chart(revolutions: xr.Dataset, caption: str) -> Chart:
 
 
 def exceedance_chart(found: xr.Dataset, caption: str) -> Chart:
-    """How often a year a level is exceeded, by wind speed and together.
+    """How often a year a level is exceeded, tail by tail and together.
 
     Parameters
     ----------
     found : xarray.Dataset
-        `rate` (wind_speed, level) and `total` (level) in 1/year, coordinate `level`; attribute
-        `years` of the return period.
+        `rate` (tail, level) and `total` (level) in 1/year, coordinates `tail`, which names a wind
+        speed, and `level`; attribute `years` of the return period.
     caption : str
         What it shows.
     """
     level, unit = readable(found["level"])
     least = 0.1 / found.attrs["years"]
-    lines = {
-        f"{speed:g} m/s": found["rate"].sel(wind_speed=speed).values
-        for speed in found["wind_speed"].values
-    }
+    lines = {f"{name} m/s": found["rate"].sel(tail=name).values for name in found["tail"].values}
     lines["all"] = found["total"].values
     shown = {name: np.where(rate > least, rate, np.nan) for name, rate in lines.items()}
     panel = Panel("exceedances a year", shown, 1 / found.attrs["years"], logarithmic=True)

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 RUN_IN = 60.0
 """Length at the start of a field in which the rotor settles; its loads are thrown away, s."""
 
+HUB_OFF = 0.05
+"""Share of the diameter by which the hub of a field may lie off that of the rotor."""
+
 KINDS = (".bts", ".wnd")
 
 
@@ -49,8 +52,9 @@ def wind_files(scene: Scene) -> Iterator[tuple[Path, float, int | None]]:
 
 def given_field(
     path: Path, case: Condition, winds: WindOptions, machine: Machine, duration: float | None
-) -> tuple[Condition, Field]:
-    """Return the field of a file on the grid of the rotor, and the condition with its mean wind.
+) -> tuple[Condition, Field, str]:
+    """Return the condition with the mean wind of a file, its field on the grid of the rotor, and
+    the doubt that it is the wind of a hub at another height; "" without one.
 
     Raises
     ------
@@ -77,7 +81,9 @@ def given_field(
         shear_exponent=box.shear_exponent,
         duration=wanted,
     )
-    return mean, field
+    off, hub = box.hub_height - machine.hub_height, f"{machine.hub_height:g} m"
+    doubt = f"wind: hub of the field at {box.hub_height:g} m, that of the turbine at {hub}"
+    return mean, field, doubt if abs(off) > HUB_OFF * machine.rotor_diameter else ""
 
 
 def _matching(pattern: str) -> list[Path]:

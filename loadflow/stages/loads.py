@@ -49,11 +49,12 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
     from loadflow.rotor.inflow import wind_machine
 
     loads, wind, winds, field = scene.loads, wind_of(scene, case), scene.loads.wind_options, None
+    doubt = ""
     turbine = load_turbine(scene.turbine.name)
     if case.wind:
         plant = wind_machine(turbine)
         with part_of_work("wind"):
-            wind, field = given_field(Path(case.wind), wind, winds, plant, loads.duration)
+            wind, field, doubt = given_field(Path(case.wind), wind, winds, plant, loads.duration)
     series = simulate_condition(
         scene.turbine.name,
         wind,
@@ -64,12 +65,12 @@ def _simulate(scene: Scene, case: Case) -> xr.Dataset:
         rung=loads.rung,
         options=replace(loads.rotor_options, air_density=scene.environment.air_density),
     )
-    swing = swing_doubt(series, turbine.rotor.radius)
+    told = "\n".join(filter(None, (doubt, swing_doubt(series, turbine.rotor.radius))))
     # a cube has the pitch of blade 1 and the wind along the mean
     series = series.drop_dims("blade").assign(wind=series["wind"].sel(axis="x", drop=True))
     return series.assign_coords(
         tripped=((), series.attrs.pop("tripped"), _TRIPPED),
-        doubts=((), swing, CASE_COORDS["doubts"].attrs),
+        doubts=((), told, CASE_COORDS["doubts"].attrs),
     )
 
 

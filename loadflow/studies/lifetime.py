@@ -109,7 +109,7 @@ class BearingLifetime:
         Time and revolutions of the lifetime by speed and radial force.
     markov : MarkovMatrix
         Transitions of −Fz, the force downwards, between classes, of the lifetime.
-    tails : dict of Tail by wind speed (m/s)
+    tails : dict of Tail by load case and wind speed (m/s)
         Of the radial force, where there are enough data.
     tail_shares : ndarray, shape (tails,)
         Share of the lifetime of each tail.
@@ -125,9 +125,15 @@ class BearingLifetime:
     lifetime_equivalent: np.ndarray
     duration: LoadDuration
     markov: MarkovMatrix
-    tails: dict[float, Tail]
+    tails: dict[tuple[str, float], Tail]
     tail_shares: np.ndarray
     extreme: LongTermExtreme | None
+
+    @property
+    def tail_names(self) -> list[str]:
+        """Wind speed of each tail, behind its load case where there are tails of several."""
+        several = len({dlc for dlc, _ in self.tails}) > 1
+        return [f"{dlc}, {speed:g}" if several else f"{speed:g}" for dlc, speed in self.tails]
 
 
 def lifetimes(
@@ -174,8 +180,10 @@ def _lifetime(
     ]
     living = [k for k, share in enumerate(shares.tolist()) if share > 0]
     tails = _tails([parts[k] for k in living], [resultants[k] for k in living], options)
-    speeds = np.array([part.labels["wind_speed"] for part in parts])
-    tail_shares = np.array([shares[speeds == speed].sum() for speed in tails])
+    populations = [_population(part) for part in parts]
+    tail_shares = np.array(
+        [sum(w for w, own in zip(shares.tolist(), populations) if own == one) for one in tails]
+    )
     return BearingLifetime(
         bearing,
         tuple(part.case for part in parts),
@@ -234,23 +242,27 @@ def _markov(parts: Sequence[BearingSeries], seconds: np.ndarray, classes: int) -
     return MarkovMatrix(edges, np.rint(counts).astype(np.int64))
 
 
+def _population(part: BearingSeries) -> tuple[str, float]:
+    """What cases of one tail have in common: a start is no production in the same wind."""
+    return str(part.labels["dlc"]), float(part.labels["wind_speed"])
+
+
 def _tails(
     parts: Sequence[BearingSeries], resultants: list[np.ndarray], options: LifetimeOptions
-) -> dict[float, Tail]:
-    """Tail of each wind speed that has enough blocks or peaks, all its seeds together."""
-    groups: dict[float, list[int]] = {}
+) -> dict[tuple[str, float], Tail]:
+    """Tails of load cases and wind speeds with enough blocks or peaks, all seeds together."""
+    groups: dict[tuple[str, float], list[int]] = {}
     for k, part in enumerate(parts):
-        groups.setdefault(float(part.labels["wind_speed"]), []).append(k)
+        groups.setdefault(_population(part), []).append(k)
     found = {}
-    for speed, members in sorted(groups.items()):
-        shortest = min(resultants[k].size for k in members)
-        x = np.stack([resultants[k][:shortest] for k in members])
+    for one, members in sorted(groups.items()):
         dt = float(parts[members[0]].time[1] - parts[members[0]].time[0])
+        x = [resultants[k] for k in members if resultants[k].size >= round(options.block / dt)]
         try:
             if options.tail == "maxima":
-                found[speed] = tail_of_maxima(x, dt, options.block)
+                found[one] = tail_of_maxima(x, dt, options.block)
             else:
-                found[speed] = tail_of_peaks(x, dt, separation=options.block)
+                found[one] = tail_of_peaks(x, dt, separation=options.block)
         except InputError:  # too short a record has no tail; the table says which have one
             continue
     return found

@@ -82,7 +82,7 @@ def as_dict(life: BearingLifetime, options: LifetimeOptions) -> dict[str, Any]:
         "exponents": options.exponents,
         "damage_equivalent_load": life.lifetime_equivalent,
         "revolutions": float(life.duration.revolutions.sum()),
-        "tails": {f"{speed:g}": vars(tail) for speed, tail in life.tails.items()},
+        "tails": {name: vars(tail) for name, tail in zip(life.tail_names, life.tails.values())},
         "extreme": None
         if extreme is None
         else {"value": extreme.value, "low": extreme.low, "high": extreme.high},
@@ -172,9 +172,19 @@ def tail_tables(life: BearingLifetime) -> list[Table]:
     """Tails behind the extreme of the return period; none without one."""
     if life.extreme is None:
         return []
-    heads = ["wind, m/s", "threshold, kN", "scale, kN", "shape", "rate, 1/h", "from", "share"]
+    heads = [
+        "load case",
+        "wind, m/s",
+        "threshold, kN",
+        "scale, kN",
+        "shape",
+        "rate, 1/h",
+        "from",
+        "share",
+    ]
     rows = [
         [
+            dlc,
             f"{speed:g}",
             f"{tail.threshold / 1e3:.5g}",
             four_digits(tail.scale / 1e3),
@@ -183,7 +193,7 @@ def tail_tables(life: BearingLifetime) -> list[Table]:
             str(tail.count),
             f"{share:.1%}",
         ]
-        for (speed, tail), share in zip(life.tails.items(), life.extreme.shares.tolist())
+        for ((dlc, speed), tail), share in zip(life.tails.items(), life.extreme.shares.tolist())
     ]
     return [Table("Tails of the radial force, and what each adds to the extreme", heads, rows)]
 
@@ -229,15 +239,15 @@ def _pictures(life: BearingLifetime, options: LifetimeOptions) -> list[Shown]:
 
 
 def exceedances(life: BearingLifetime, options: LifetimeOptions) -> xr.Dataset:
-    """How often a year each wind speed exceeds a radial force, of a lifetime with an extreme."""
+    """How often a year each tail exceeds a radial force, of a lifetime with an extreme."""
     assert life.extreme is not None
     low = min(tail.threshold for tail in life.tails.values())
     level = np.linspace(low, 1.05 * max(life.extreme.high, low), LEVELS)
     pairs = zip(life.tail_shares.tolist(), life.tails.values())
     rates = [share * tail.rate_above(level) * YEAR for share, tail in pairs]
     return xr.Dataset(
-        {"rate": (("wind_speed", "level"), rates), "total": ("level", np.sum(rates, axis=0))},
-        {"wind_speed": list(life.tails), "level": ("level", level, {"units": "N"})},
+        {"rate": (("tail", "level"), rates), "total": ("level", np.sum(rates, axis=0))},
+        {"tail": life.tail_names, "level": ("level", level, {"units": "N"})},
         {
             "value": life.extreme.value,
             "low": life.extreme.low,

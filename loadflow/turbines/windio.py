@@ -7,6 +7,7 @@ that both are checked in one way, and what a file lacks can be given beside it.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
 from pathlib import Path
@@ -32,7 +33,10 @@ _CENTRE = 1e-3  # m, of a shaft without a hub radius
 _OVERSPEED = 1.5  # of the reference speed: no turbulence of a design load case reaches it
 _BRAKE = 1.15  # of the rated torque
 _TORQUE_RESERVE = 1.1  # of the largest torque over the rated one, as controllers of Task 37 have it
+_SHORT_OF = 0.9  # of the rated power: so much a torque of the rotor makes at least
 _FILTER = 0.25  # Hz, corner of the filter of the speed, that of the NREL 5 MW
+_FLOAT = re.compile(r"[-+]?(\.\d+|\d+(\.\d*)?)[eE][-+]?\d+$")
+"""Numbers of YAML 1.2 that PyYAML takes for text, such as 1e-05."""
 _LOWEST_SPEED = 0.4  # of the reference speed, where a file states none
 
 
@@ -124,11 +128,16 @@ def _parsed(path: Path, time: int, size: int) -> Any:
                 del self.anchors[anchor]
             return super().compose_node(parent, index)
 
+    class Fast(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):  # type: ignore[misc]
+        """The same, which takes each anchor once."""
+
+    for loader in (Loader, Fast):
+        loader.add_implicit_resolver("tag:yaml.org,2002:float", _FLOAT, list("-+.0123456789"))
     try:
         text = path.read_text(encoding="utf-8")
         try:
-            return yaml.load(text, getattr(yaml, "CSafeLoader", Loader))
-        except yaml.composer.ComposerError:  # the fast loader takes each anchor once
+            return yaml.load(text, Fast)
+        except yaml.composer.ComposerError:
             return yaml.load(text, Loader)
     except (yaml.YAMLError, UnicodeDecodeError, RecursionError) as error:
         raise InputError(f"{path}: not a YAML file: {error}") from error
@@ -177,7 +186,7 @@ def _described(
     radius = rotor.get("radius")
     reynolds = reynolds_number(source, radius, _rated_rotor_speed(source, radius))
     found["airfoils"], thicknesses = foil_table(source, reynolds, assumed)
-    blade = blade_table(source, rotor, thicknesses, sections, damping)
+    blade = blade_table(source, rotor, found["airfoils"], thicknesses, sections, damping)
     _put(found, "blade", blade or None)
     found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}
     merged = _merged(found, beside)  # what is beside counts in what follows from it
@@ -277,7 +286,7 @@ def _control(
         mechanical = _mechanical(source, merged, reference, gear, assumed)
         _put(control, "rated_mechanical_power", mechanical)
         mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
-        torque = source.number("largest torque")
+        torque = _largest_torque(source, power, rotor_speed, gear)
         if torque is not None:
             control["maximum_torque"] = torque / gear
         elif mechanical is not None:
@@ -327,7 +336,7 @@ def _mechanical(
         efficiency = generator * (source.number("gearbox efficiency") or 1.0)
     if efficiency is not None:
         return float(power / efficiency)
-    torque = source.number("largest torque")
+    torque = _largest_torque(source, power, reference / gear, gear)
     if torque is None:
         source.hints["control.rated_mechanical_power"] = (
             "the file has no efficiency of the generator; drivetrain.efficiency gives it, too"
@@ -344,6 +353,16 @@ def _mechanical(
         f"taken for {_TORQUE_RESERVE} × the rated one"
     )
     return float(mechanical)
+
+
+def _largest_torque(
+    source: Source, power: float | None, rotor_speed: float, gear: float
+) -> float | None:
+    """Largest torque at the rotor, N m: one too small for the rated power is the generator's."""
+    torque = source.number("largest torque")
+    if torque is None or power is None or torque * rotor_speed >= _SHORT_OF * power:
+        return torque
+    return torque * gear
 
 
 def _gains(source: Source, control: dict[str, Any], gear: float) -> None:

@@ -6,11 +6,15 @@ from typing import Any
 
 import numpy as np
 
+from loadflow.errors import InputError
+from loadflow.numerics.fields import none_such
+
 from .checks import Array
 from .windio_paths import Source
 
 AIR_VISCOSITY = 1.46e-5  # m²/s, kinematic, at 15 °C and sea level
 _DEGREE = np.pi / 180
+_ROUNDED = 1e-3  # by how much weights may miss their sum
 _UPPER = [(i, j) for i in range(6) for j in range(i, 6)]
 """Places of the 21 numbers of a symmetric matrix in the ontology of WISDEM."""
 
@@ -26,13 +30,11 @@ def reynolds_number(
     return 0.75 * radius * rotor_speed * length / AIR_VISCOSITY
 
 
-def polar_of(entry: dict[str, Any], reynolds: float | None) -> tuple[Any, list[float]]:
-    """Polar of an airfoil's first configuration nearest to a Reynolds number, and all it has.
+def polar_of(sets: list[Any], reynolds: float | None) -> tuple[Any, list[float]]:
+    """Polar of those of one configuration nearest to a Reynolds number, and all there are.
 
     Without one that of the largest. Sets that tell no Reynolds number: the first of them.
     """
-    polars = entry["polars"]
-    sets = polars[0].get("re_sets", polars)
     if not all(polar.get("re") for polar in sets):
         return sets[0], []
     known = [float(polar["re"]) for polar in sets]
@@ -45,43 +47,102 @@ def foil_table(
 ) -> tuple[dict[str, Any], dict[str, float]]:
     """Polars by name, and the relative thickness of each; angles in radians.
 
-    Of several Reynolds numbers that nearest to `reynolds`, which is told in `assumed`.
+    Of several Reynolds numbers that nearest to `reynolds`, which is told in `assumed`. A database
+    has airfoils that a blade does not call [windIO]: they take no part in blending, and neither do
+    those of the thickness of another that is called nearer to the root.
     """
+    entries = {str(entry["name"]): entry for entry in source.path("airfoils") or []}
+    called = _called(source, assumed)
+    if unknown := [name for name in called if name not in entries]:
+        raise InputError(none_such("airfoil", unknown, entries))
     foils: dict[str, Any] = {}
     thickness: dict[str, float] = {}
-    for entry in source.path("airfoils") or []:
-        name = str(entry["name"])
+    by_thickness: dict[float, str] = {}
+    for name in [*called, *(name for name in entries if name not in called)]:
+        entry = entries[name]
+        foil = _foil(name, entry, called.get(name, []), reynolds, assumed)
         given = entry.get("rthick", entry.get("relative_thickness"))
-        polar, known = polar_of(entry, reynolds)
+        if given is None:
+            continue
+        foils[name], thickness[name] = foil, float(given)
+        if called and name not in called:
+            continue
+        if float(given) in by_thickness:
+            other = by_thickness[float(given)]
+            assumed.append(f"airfoils.{name}: {other}, of the same thickness, stands for both")
+            continue
+        by_thickness[float(given)] = name
+        foil["thickness"] = float(given)
+    return foils, thickness
+
+
+def _called(source: Source, assumed: list[str]) -> dict[str, list[tuple[str, float]]]:
+    """Airfoils that the blade calls, from the root on, with configurations and their weights."""
+    shape = source.at("blade shape") or {}
+    called: dict[str, list[tuple[str, float]]] = {}
+    for place in shape.get("airfoils", []):
+        tags = place.get("configuration", [])
+        weights = place.get("weight") or [1 / len(tags) for _ in tags]
+        if tags and abs(sum(weights) - 1) > _ROUNDED:
+            raise InputError(f"airfoils.{place['name']}: weight = {weights}: must add up to 1")
+        mix, name = list(zip(tags, weights, strict=True)), str(place["name"])
+        if called.setdefault(name, mix) != mix:
+            assumed.append(f"airfoils.{name}: mixed as at its place nearest to the root")
+    labels = shape.get("airfoil_position", {}).get("labels", [])
+    return called or {str(name): [] for name in labels}
+
+
+def _foil(
+    name: str,
+    entry: dict[str, Any],
+    configurations: list[tuple[str, float]],
+    reynolds: float | None,
+    assumed: list[str],
+) -> dict[str, Any]:
+    """One airfoil: its configurations by their weights, or the first of them."""
+    polars = entry["polars"]
+    if "re_sets" in polars[0]:
+        by_tag = {polar.get("configuration"): polar["re_sets"] for polar in polars}
+        if unknown := [tag for tag, _ in configurations if tag not in by_tag]:
+            raise InputError(f"airfoils.{name}: {none_such('configuration', unknown, by_tag)}")
+        parts = [(by_tag[tag], weight) for tag, weight in configurations if weight > 0]
+        parts = parts or [(polars[0]["re_sets"], 1.0)]
+    else:
+        parts = [(polars, 1.0)]
+    found: list[tuple[Any, float]] = []
+    for sets, weight in parts:
+        polar, known = polar_of(sets, reynolds)
+        found.append((polar, weight))
         if len(set(known)) > 1:
             choices = ", ".join(f"{number:.3g}" for number in sorted(known))
-            assumed.append(f"airfoils.{name}: polar of Re = {polar['re']:.3g}, of {choices}")
-        if "cl" in polar:
-            unit, names = _DEGREE, ("cl", "cd", "cm")
-        else:
-            unit, names = 1.0, ("c_l", "c_d", "c_m")
-        lift, drag, moment = (polar.get(key) for key in names)
-        grid = np.union1d(lift["grid"], drag["grid"])
-        angle = np.clip(grid * unit, -np.pi, np.pi)
-        angle[[0, -1]] = -np.pi, np.pi
-        foil = {
-            "angle": angle.tolist(),
-            "lift": np.interp(grid, lift["grid"], lift["values"]).tolist(),
-            "drag": np.interp(grid, drag["grid"], drag["values"]).tolist(),
-        }
-        if moment:
-            foil["moment"] = np.interp(grid, moment["grid"], moment["values"]).tolist()
-        if given is not None:
-            thickness[name] = float(given)
-            if float(given) not in [foils[other]["thickness"] for other in foils]:
-                foil["thickness"] = float(given)
-                foils[name] = foil
-    return foils, thickness
+            text = f"airfoils.{name}: polar of Re = {polar['re']:.3g}, of {choices}"
+            assumed += [] if text in assumed else [text]
+    first = found[0][0]
+    unit, names = (1.0, ("c_l", "c_d", "c_m"))
+    if "cl" in first:
+        unit, names = _DEGREE, ("cl", "cd", "cm")
+    grid = np.unique(
+        np.concatenate([polar[key]["grid"] for polar, _ in found for key in names[:2]])
+    )
+
+    def together(key: str) -> list[float]:
+        """A coefficient, 0 where a polar lacks it, as of the moment of a cylinder."""
+        known = [(polar[key], weight) for polar, weight in found if polar.get(key)]
+        values = [w * np.interp(grid, table["grid"], table["values"]) for table, w in known]
+        return list(np.sum(values, axis=0).tolist()) if values else []
+
+    angle = np.clip(grid * unit, -np.pi, np.pi)
+    angle[[0, -1]] = -np.pi, np.pi
+    foil = {"angle": angle.tolist(), "lift": together(names[0]), "drag": together(names[1])}
+    if moment := together(names[2]):
+        foil["moment"] = moment
+    return foil
 
 
 def blade_table(
     source: Source,
     rotor: dict[str, Any],
+    foils: dict[str, Any],
     thickness: dict[str, float],
     sections: int,
     damping: float,
@@ -107,7 +168,7 @@ def blade_table(
         places = shape["airfoil_position"]
         values = [thickness[name] for name in places["labels"]]
         thick = at({"grid": places["grid"], "values": values})
-    known = sorted(thickness.values())
+    known = sorted(foil["thickness"] for foil in foils.values() if "thickness" in foil)
     thick = np.clip(np.round(thick, 4), known[0], known[-1])
     columns = zip(
         rotor["hub_radius"] + station, at(shape["twist"]) * unit, at(shape["chord"]), thick
@@ -141,25 +202,24 @@ def _structure(
     former = entry.get("elastic_properties_mb", {}).get("six_x_six")
     if modern is not None:
         stiff, inertia = modern["stiffness_matrix"], modern["inertia_matrix"]
-        share = np.asarray(stiff["grid"], float)
-        upper = np.array([stiff[f"K{i + 1}{j + 1}"] for i, j in _UPPER], float).T
-        density = np.interp(share, inertia["grid"], inertia["mass"])
+        upper = np.array([stiff[f"K{i + 1}{j + 1}"] for i, j in _UPPER], float)
+        mass = inertia["mass"]
         twist = entry["outer_shape"]["twist"]
     elif former is not None:
         stiff, inertia = former["stiff_matrix"], former["inertia_matrix"]
-        share = np.asarray(stiff["grid"], float)
-        upper = np.asarray(stiff["values"], float)
+        upper = np.asarray(stiff["values"], float).T
         mass = np.asarray(inertia["values"], float)[:, 0]
-        density = np.interp(share, inertia["grid"], mass)
         twist = entry["outer_shape_bem"]["twist"]
         axis = former.get("reference_axis", axis)
     else:
         return None
+    share = np.union1d(stiff["grid"], inertia["grid"])  # of either, so that no mass is lost
+    density = np.interp(share, inertia["grid"], mass)
     span = np.interp(share, axis["z"]["grid"], axis["z"]["values"])
     turned = np.interp(share, twist["grid"], twist["values"]) * unit
     matrix = np.zeros((share.size, 6, 6))
-    for (i, j), values in zip(_UPPER, upper.T):
-        matrix[:, i, j] = matrix[:, j, i] = values
+    for (i, j), values in zip(_UPPER, upper, strict=True):
+        matrix[:, i, j] = matrix[:, j, i] = np.interp(share, stiff["grid"], values)
     return span - span[0], turned, density, matrix
 
 

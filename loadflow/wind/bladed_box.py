@@ -87,10 +87,16 @@ def read_bladed_box(
         _, components = _LENGTHS.unpack_from(raw, start)
         start += _LENGTHS.size
     dz, dy, dx, half, speed, *_, nz, ny = _GRID.unpack_from(raw, start)
-    if components != 3 or min(nz, ny, half) < 1 or min(dz, dy, dx, speed) <= 0:
-        raise InputError(f"{path}: {components} components on a grid {ny} × {nz}, {2 * half} steps")
+    sizes = all(0 < size < np.inf for size in (dz, dy, dx, speed))
+    if components != 3 or min(nz, ny) < 2 or half < 1 or not sizes:
+        raise InputError(
+            f"{path}: {components} components on a grid {ny} × {nz} of {dy} × {dz} m, {2 * half} "
+            f"steps of {dx} m at {speed} m/s"
+        )
     if hub_height is None or intensity is None:
         raise InputError(f"{path}: the file states no hub_height and intensity; give both")
+    if not (0 < hub_height < np.inf and all(0 <= share < np.inf for share in intensity)):
+        raise InputError(f"{path}: hub_height = {hub_height} m, intensity = {intensity}")
     count, row = 2 * half, 3 * ny * nz
     # headers differ in length, but the integers run to the end
     start = start + _GRID.size + 24 if model == _IMPROVED else len(raw) - 2 * count * row
@@ -107,7 +113,7 @@ def read_bladed_box(
     z = hub_height + dz * (np.arange(nz) - (nz - 1) / 2)
     if shear_exponent is None:
         mean = speed + u.mean(axis=(0, 1), dtype=float)
-        shear_exponent = power_law_exponent(z / hub_height, mean / speed)
+        shear_exponent = power_law_exponent(z / hub_height, mean / speed, path)
         above = np.maximum(z, 0.5 * dz) / hub_height  # a power of the ground may be infinite
         u -= (speed * (above**shear_exponent - 1)).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)

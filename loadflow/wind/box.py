@@ -46,10 +46,15 @@ class Box:
     shear_exponent: float
 
     def __post_init__(self) -> None:
-        for name in ("y", "z"):
+        for name in ("time", "y", "z"):
             line = getattr(self, name)
-            if line.ndim != 1 or len(line) < 2 or np.any(np.diff(line) <= 0):
+            rises = line.ndim == 1 and len(line) > 1 and bool(np.all(np.diff(line) > 0))
+            if not (rises and np.isfinite(line).all()):
                 raise InputError(f"{name} must rise, got {line}")
+        for name, least in (("wind_speed", 0), ("hub_height", 0), ("shear_exponent", -np.inf)):
+            if not least < getattr(self, name) < np.inf:
+                allowed = "finite" if least else "positive and finite"
+                raise InputError(f"{name} = {getattr(self, name)} of the box must be {allowed}")
         shape = (len(self.time), len(self.y), len(self.z))
         for name in ("u", "v", "w"):
             component = getattr(self, name)
@@ -112,10 +117,20 @@ def _cell(
     return index, np.clip(place, 0, 1).astype(np.float32)
 
 
-def power_law_exponent(height: NDArray[np.float64], speed: NDArray[np.float64]) -> float:
-    """Exponent of the power law nearest to a profile, both relative to the hub."""
+def power_law_exponent(
+    height: NDArray[np.float64], speed: NDArray[np.float64], source: object
+) -> float:
+    """Exponent of the power law nearest to a profile, both relative to the hub.
+
+    Raises
+    ------
+    InputError
+        No height but that of the hub has a mean wind from ahead; names the `source`.
+    """
     above = (height > 0) & (speed > 0)
     log_z = np.log(height[above])
+    if not np.any(log_z):
+        raise InputError(f"{source}: no height beside the hub's has a mean wind from ahead")
     return float(log_z @ np.log(speed[above]) / (log_z @ log_z))
 
 

@@ -97,7 +97,8 @@ def read_bts(path: str | Path) -> Box:
     Raises
     ------
     InputError
-        If the file is not of this format, or is shorter than its header says.
+        If the file is not of this format, its header makes no sense, or it is shorter than that
+        says; if no power law can be fitted, as where the wind blows backwards.
 
     Examples
     --------
@@ -120,10 +121,15 @@ def read_bts(path: str | Path) -> Box:
     if (
         identifier not in (_NOT_PERIODIC, _PERIODIC)
         or min(nz, ny, nt) < 2
-        or tower < 0
-        or min(dz, dy, dt, speed) <= 0
+        or min(tower, text, bottom) < 0
+        or not all(0 < size < np.inf for size in (dz, dy, dt, speed, hub))
+        or not np.isfinite([bottom, *scales]).all()
+        or min(scales[::2]) <= 0
     ):
-        raise InputError(f"{path}: not a .bts file (identifier {identifier}, grid {ny} × {nz})")
+        raise InputError(
+            f"{path}: not a .bts file (identifier {identifier}, grid {ny} × {nz} of {dy} × {dz} m "
+            f"from {bottom} m, steps of {dt} s, {speed} m/s at {hub} m)"
+        )
     start, row = _HEAD.size + text, 3 * (nz * ny + tower)
     if len(raw) < start + 2 * nt * row:
         raise InputError(f"{path}: {len(raw)} bytes, the header asks for {start + 2 * nt * row}")
@@ -134,8 +140,9 @@ def read_bts(path: str | Path) -> Box:
     )
     z = bottom + dz * np.arange(nz)
     mean = u.mean(axis=(0, 1), dtype=float)
-    exponent = power_law_exponent(z / hub, mean / speed)
-    u -= (speed * (z / hub) ** exponent).astype(np.float32)
+    exponent = power_law_exponent(z / hub, mean / speed, path)
+    above = np.maximum(z, 0.5 * dz) / hub  # a power of the ground may be infinite
+    u -= (speed * above**exponent).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dt * np.arange(nt), y, z, u, v, w, speed, hub, exponent)
 

@@ -35,6 +35,18 @@ def test_tails_add_up_by_their_shares():
     assert long_term_extreme([mild, severe], [0.0, 0.01]).value == pytest.approx(alone.value)
 
 
+def test_series_of_several_lengths_are_fitted_together():
+    rng = np.random.default_rng(5)
+    x = rng.standard_exponential(3000)
+    rows = [x[:1800], x[1800:1830], x[1830:]]  # cut where blocks of 30 begin
+    assert tail_of_maxima(rows, dt=1.0, block=30.0) == tail_of_maxima(x, dt=1.0, block=30.0)
+    pieces = tail_of_peaks(rows, dt=1.0, separation=1.0)
+    assert pieces == tail_of_peaks(x, dt=1.0, separation=1.0)
+    for fit in (tail_of_maxima, tail_of_peaks):
+        with pytest.raises(InputError, match="no values"):
+            fit([], 1.0, **({"block": 30.0} if fit is tail_of_maxima else {}))
+
+
 @pytest.mark.parametrize("kind", ["maxima", "peaks"])
 def test_interval_covers_the_true_level_about_as_often_as_it_says(kind):
     """Of 60 values: of 150 intervals of 90 %, 125 at least cover the level."""

@@ -84,6 +84,93 @@ def test_polars_of_the_nearest_reynolds_number_are_read(document, read, tmp_path
     assert "FFA-W3-211: polar of Re = 1e+07, of " in said
 
 
+def test_numbers_of_yaml_1_2_are_numbers(document, read, tmp_path):
+    table = document["airfoils"][0]["polars"][0]["re_sets"][0]["cd"]
+    table["values"] = [1e-05, *table["values"][1:]]
+    path = written(document, tmp_path / "numbers.yaml")
+    assert "1e-05" in path.read_text()
+    assert from_windio(path).airfoils["circular"].drag[0] == 1e-5
+
+
+def halved(foil, name, thickness):
+    """An airfoil of half the lift, with a name and a thickness of its own."""
+    other = copy.deepcopy(foil) | {"name": name, "rthick": thickness}
+    table = other["polars"][0]["re_sets"][0]["cl"]
+    table["values"] = [0.5 * x for x in table["values"]]
+    return other
+
+
+def lift_of_sections(turbine):
+    angle = np.radians(np.linspace(-10, 18, 29))
+    foils = [turbine.airfoils[name] for name in turbine.blade.airfoil]
+    return np.array([np.interp(angle, foil.angle, foil.lift) for foil in foils])
+
+
+def test_airfoils_that_the_blade_does_not_call_take_no_part_in_it(document, read, tmp_path):
+    foils = document["airfoils"]
+    thin = next(foil for foil in foils if foil["name"] == "FFA-W3-211")
+    document["airfoils"] = [halved(thin, "twin", 0.211), *foils, halved(thin, "between", 0.225)]
+    found = from_windio(written(document, tmp_path / "database.yaml"))
+    np.testing.assert_array_equal(lift_of_sections(found), lift_of_sections(read))
+    assert found.airfoils["between"].thickness is None
+
+
+def test_of_two_airfoils_of_one_thickness_that_nearer_to_the_root_stands(document, read, tmp_path):
+    foils, places = document["airfoils"], document["components"]["blade"]["outer_shape"]["airfoils"]
+    thin = next(foil for foil in foils if foil["name"] == "FFA-W3-211")
+    document["airfoils"] = [halved(thin, "tip", 0.211), *foils]
+    places[-1]["name"] = "tip"
+    found = from_windio(written(document, tmp_path / "twins.yaml"))
+    np.testing.assert_array_equal(lift_of_sections(found), lift_of_sections(read))
+    assert "airfoils.tip: FFA-W3-211, of the same thickness, stands for both" in found.assumed
+
+
+def test_configurations_of_an_airfoil_are_mixed_by_their_weights(document, read, tmp_path):
+    shape = document["components"]["blade"]["outer_shape"]
+    for foil in document["airfoils"]:
+        rough = copy.deepcopy(foil["polars"][0]) | {"configuration": "rough"}
+        rough["re_sets"][0]["cl"]["values"] = [0.5 * x for x in rough["re_sets"][0]["cl"]["values"]]
+        foil["polars"].insert(0, rough)
+    for place in shape["airfoils"]:
+        place |= {"configuration": ["default", "rough"], "weight": [0.6, 0.4]}
+    found = from_windio(written(document, tmp_path / "mixed.yaml"))
+    np.testing.assert_allclose(lift_of_sections(found), 0.8 * lift_of_sections(read), atol=1e-12)
+    assert not any(text.startswith("airfoils") for text in found.assumed)
+    for change, says in (
+        ({"weight": [0.6, 0.5]}, "weight = .* must add up to 1"),
+        ({"configuration": ["default", "smooth"]}, "no configuration 'smooth'"),
+        ({"name": "FFA-W3-212"}, "no airfoil 'FFA-W3-212'"),
+    ):
+        kept = dict(shape["airfoils"][2])
+        shape["airfoils"][2] |= change
+        with pytest.raises(InputError, match=says):
+            from_windio(written(document, tmp_path / "wrong.yaml"))
+        shape["airfoils"][2] = kept
+
+
+def test_mass_between_the_stations_of_the_stiffness_is_not_lost(document, read, tmp_path):
+    elastic = document["components"]["blade"]["structure"]["elastic_properties"]
+    stiff = elastic["stiffness_matrix"]
+    for key, values in stiff.items():
+        if key == "grid" or key.startswith("K"):
+            stiff[key] = [*values[:-1:8], values[-1]]
+    found = from_windio(written(document, tmp_path / "coarse.yaml"))
+    assert found.blade.mass == pytest.approx(read.blade.mass, rel=1e-12)
+
+
+def test_a_largest_torque_of_the_generator_is_that_of_the_rotor_over_the_gear(
+    document, read, tmp_path
+):
+    """Geared files give it on either side; mistaken, power is a 50th of what is rated."""
+    beside = {"drivetrain": {"gear_ratio": 50.0, "efficiency": 0.95}}
+    document["components"]["drivetrain"]["gearbox"]["gear_ratio"] = 50.0
+    largest = 1.2 * 15e6 / read.rated_speed
+    for given in (largest, largest / 50):
+        document["control"]["max_gen_torque"] = given
+        found = from_windio(written(document, tmp_path / "geared.yaml"), beside=beside)
+        assert found.control.maximum_torque == pytest.approx(largest / 50)
+
+
 def test_a_downwind_rotor_is_refused(document, tmp_path):
     document["assembly"]["rotor_orientation"] = "Downwind"
     with pytest.raises(InputError, match="rotor_orientation = 'Downwind' is not allowed"):

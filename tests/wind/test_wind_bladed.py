@@ -93,6 +93,27 @@ def test_bad_files_are_named(tmp_path):
         assert str(path) in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("place", "kind", "value"),
+    [
+        (16, "f", np.nan),  # height
+        (16, "f", 0.0),
+        (20, "f", np.inf),  # intensity of u
+        (20, "f", -1.0),
+        (32, "f", np.nan),  # dz
+        (48, "f", np.nan),  # mean speed
+        (72, "i", 1),  # one height: no profile can be fitted
+    ],
+)
+def test_a_header_of_numbers_that_cannot_be_is_refused(tmp_path, place, kind, value):
+    path = tmp_path / "wind.wnd"
+    whole = bytearray(improved(winds()[0]))
+    struct.pack_into(f"<{kind}", whole, place, value)
+    path.write_bytes(whole)
+    with pytest.raises(InputError, match=r"wind\.wnd: "):
+        read_bladed_box(path)
+
+
 def test_a_grid_that_begins_at_the_ground_has_finite_wind(tmp_path):
     """The mean profile of the ground: with less wind above, its power would be infinite."""
     counts, _ = winds()

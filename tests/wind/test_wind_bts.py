@@ -1,5 +1,6 @@
 """Wind files: an independent reader sees what was written, and bad files are named."""
 
+import struct
 from dataclasses import replace
 
 import numpy as np
@@ -63,6 +64,50 @@ def test_bad_files_are_named(box, tmp_path):
         assert str(path) in str(error.value)
 
 
+@pytest.mark.parametrize(
+    ("place", "value"),
+    [
+        (offset, value)
+        for offset, values in {
+            18: (np.nan, np.inf, 0.0),  # dz
+            26: (np.nan, np.inf, -1.0),  # dt
+            30: (np.nan, np.inf, 0.0),  # mean speed
+            34: (np.nan, 0.0, -90.0),  # hub
+            38: (np.nan, -100.0),  # lowest line
+            42: (np.nan, np.inf, 0.0, -5.0),  # slope of u
+            46: (np.nan, np.inf),  # its offset
+        }.items()
+        for value in values
+    ],
+)
+def test_a_header_of_numbers_that_cannot_be_is_refused(box, tmp_path, place, value):
+    path = tmp_path / "wind.bts"
+    write_bts(path, box)
+    whole = bytearray(path.read_bytes())
+    struct.pack_into("<f", whole, place, value)
+    path.write_bytes(whole)
+    with pytest.raises(InputError, match=r"wind\.bts: not a \.bts file"):
+        read_bts(path)
+
+
+def test_a_description_of_negative_length_is_refused(box, tmp_path):
+    path = tmp_path / "wind.bts"
+    write_bts(path, box)
+    whole = bytearray(path.read_bytes())
+    for length in (-1, -1_000_000):
+        struct.pack_into("<i", whole, 66, length)
+        path.write_bytes(whole)
+        with pytest.raises(InputError, match=r"not a \.bts file"):
+            read_bts(path)
+
+
+def test_a_wind_from_behind_has_no_profile(box, tmp_path):
+    path = tmp_path / "wind.bts"
+    write_bts(path, replace(box, u=box.u - 40.0))
+    with pytest.raises(InputError, match=r"wind\.bts: no height .* from ahead"):
+        read_bts(path)
+
+
 def test_grids_that_the_format_cannot_hold(box, tmp_path):
     path = tmp_path / "wind.bts"
     for change, message in (
@@ -76,3 +121,8 @@ def test_grids_that_the_format_cannot_hold(box, tmp_path):
         replace(box, v=box.v[:-1])
     with pytest.raises(InputError, match="z must rise"):
         replace(box, z=box.z[::-1])
+    with pytest.raises(InputError, match="time must rise"):
+        replace(box, time=np.nan * box.time)
+    for name, value in {"wind_speed": np.nan, "hub_height": 0.0, "shear_exponent": np.inf}.items():
+        with pytest.raises(InputError, match=f"{name} = {value}"):
+            replace(box, **{name: value})
