@@ -120,6 +120,14 @@ def losses_of(scene):
 
 
 TAPERED = {"arrangement": "tapered-pair"}
+_PAIR = {
+    "rollers": 60, "roller_diameter": 0.05, "roller_length": 0.08, "pitch_diameter": 1.2,
+    "contact_angle": 0.35, "rows": 2, "row_spacing": 0.2, "clearance": -5e-5,
+}  # fmt: skip
+BENT = {
+    "bearing": "M", "geometry": _PAIR | {"kind": "roller"}, "rings": "flexible",
+    "outer_ring": {"section": {"width": 0.1, "height": 0.3}, "radius": 0.68},
+}  # fmt: skip
 
 
 def test_tapered_rollers_rub_on_their_ribs_unless_the_scene_says_otherwise():
@@ -177,7 +185,15 @@ def test_ribs_churning_and_seals_count_in_the_energy_of_a_run():
         assert energy / bare[1] == pytest.approx(lost / bare[0], rel=1e-9)
 
 
-@pytest.mark.parametrize(("rolling", "conductance"), [({}, 300.0), (TAPERED, 30.0)])
+@pytest.mark.parametrize(
+    ("rolling", "conductance"),
+    [
+        ({}, 300.0),
+        ({"rings": "flexible"}, 300.0),
+        (TAPERED, 30.0),
+        (BENT, 30.0),
+    ],
+)
 def test_a_cooled_bearing_has_the_temperature_that_carries_off_its_friction(rolling, conductance):
     cooling = {"conductance": conductance, "ambient_temperature": 283.15, "step": 0.5}
     found = losses_of(short(rolling=rolling, friction=cooling))

@@ -13,7 +13,8 @@
 `shells`         elastic shells; `housings`: those in a housing on feet or a flange
 `contact`        asperities; `stribeck`: friction over speed
 `crowning`       best crown for a spectrum of loads
-`wear`           wear of a bore over a lifetime of starts and stops; `worn_surface`: its points
+`wear`           wear of a bore over a lifetime of starts and stops; `wear_cycle`: one of them;
+                 `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results
 `heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back

@@ -73,7 +73,7 @@ from .thrust import RectangularThrustBearing as RectangularThrustBearing
 from .thrust import ThrustBearing as ThrustBearing
 from .turbulence import Turbulence as Turbulence
 from .warm_pads import WarmThrustResult as WarmThrustResult
-from .wear import Cycle as Cycle
 from .wear import Wear as Wear
 from .wear import wear_bearing as wear_bearing
+from .wear_cycle import Cycle as Cycle
 from .worn_bearing import WornBearing as WornBearing

@@ -15,9 +15,8 @@ from loadflow.rolling.friction import torques_beside
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
-from loadflow.stages.frames import to_rolling
 from loadflow.stages.labelling import label, labelled
-from loadflow.stages.rolling_at_work import at_work, friction_options
+from loadflow.stages.rolling_at_work import at_work, friction_options, rest
 from loadflow.stages.running_time import counted, time_shares, with_running
 from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
 from loadflow.stages.summary import over_cases
@@ -49,8 +48,8 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
 
     Every roller, or one in `follow_every`, is followed through the whole series; balls and barrels
     slide where their contacts are curved, balls where they spin; bearings that swing have their
-    mean speed, or that of the pitch, and their torque without load. Rings are rigid. With a
-    conductance each bearing that turns finds its own temperature.
+    mean speed, or that of the pitch, and their torque without load. Rings are those of the scene.
+    With a conductance each bearing that turns finds its own temperature.
 
     Raises
     ------
@@ -80,8 +79,7 @@ def losses(scene: Scene, case: Case, inputs: dict[str, Any]) -> xr.Dataset:
             options = friction_options(scene.friction, warm.modelled, part.idle_torque)
             options = replace(options, temperature=temperature)
             follow = _FOLLOW[part.geometry.friction_model]
-            turned = to_rolling(load), to_rolling(moment)[:, :2]
-            found.append(follow(warm, *turned, time, turning, options, every))
+            found.append(follow(warm, load, moment, time, turning, options, every))
             temperatures.append(temperature)
         except SolverError as error:
             raise SolverError(f"bearing {name}: {error}") from error
@@ -127,7 +125,7 @@ def _rollers(
     every: int,
 ) -> dict[str, Any]:
     """What is kept of a roller bearing, `every` so many of its rollers followed one by one."""
-    result: Any = part.modelled.equilibrium(force, moment)
+    result: Any = rest(part, force, moment, speed)
     rollers = result.bearing.rollers
     every = min(every, rollers)
     found = roller_slip(result, time, speed, options, every=every)
@@ -160,8 +158,7 @@ def _balls(
     parts = []
     for start in range(0, speed.size, CHUNK):
         some = slice(start, start + CHUNK)
-        spun = speed[some] if part.inertia else None
-        result = part.modelled.equilibrium(force[some], moment[some], speed=spun)
+        result = rest(part, force[some], moment[some], speed[some])
         found = result.friction(speed[some], options)
         least = least_film_parameter(found.film_parameter, result.ball_forces)
         curved = found.losses["differential slip"]

@@ -12,7 +12,8 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
-from loadflow.journal.wear import TOUCHING, Cycle, wear_bearing
+from loadflow.journal.wear import TOUCHING, wear_bearing
+from loadflow.journal.wear_cycle import Cycle
 from loadflow.journal.worn_bearing import WornBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from loadflow.cube.hdf5 import read_variables
 from loadflow.errors import SolverError
 from loadflow.journal.grid_bounds import unresolved_counted
-from loadflow.journal.wear import Cycle, followed, offset_of
+from loadflow.journal.wear_cycle import Cycle, followed, offset_of
 from loadflow.scene.journal import Journal
 from loadflow.stages.frames import to_film
 from loadflow.stages.wear import cycles_of

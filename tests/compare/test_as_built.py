@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.journal.wear import Cycle
+from loadflow.journal.wear_cycle import Cycle
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate

@@ -8,7 +8,10 @@ import pytest
 
 from loadflow.errors import InputError
 from loadflow.rolling import (
+    FlexibleRings,
     FrictionOptions,
+    RingBeam,
+    RingSection,
     RollerBearing,
     SphericalRollerBearing,
     roller_friction,
@@ -41,6 +44,24 @@ def test_each_roller_is_loaded_by_its_own_place_in_the_cage():
         there = PAIR.equilibrium(force=(0, -1e5, 5e4), element_angle=angle[i]).roller_forces
         ours = np.stack([row.load[i] for row in history])
         assert np.abs(ours - there).max() < 0.01 * there.max()
+
+
+def test_rollers_between_rings_that_bend_are_loaded_as_these_bend():
+    """Against the equilibrium with rollers at the angle that the cage has reached."""
+    free = RingBeam(section=RingSection.rectangle(0.03, 0.18), radius=0.28)
+    rings = FlexibleRings(outer=free)
+    force = np.broadcast_to([0.0, -1e5, 5e4], (TIME.size, 3))
+    some = slice(0, None, 60)
+    history = bearing_histories(PAIR.equilibrium(force[some], rings=rings), TIME[some], 2.0)
+    angle = turned(TIME[some], history[0].cage_speed)
+    rigid = PAIR.equilibrium(force[0]).roller_forces
+    for i in (0, 3, 8):
+        there = PAIR.equilibrium(force[0], rings=rings, element_angle=angle[i]).roller_forces
+        ours = np.stack([row.load[i] for row in history])
+        # of 24 rollers: 4 % of the largest where the load zone ends, 0.6 % of a row
+        assert np.abs(ours - there).max() < 0.06 * there.max()
+        assert ours.sum(axis=-1) == pytest.approx(there.sum(axis=-1), rel=0.01)
+        assert np.abs(there - rigid).max() > 0.1 * there.max()
 
 
 def test_weight_presses_rollers_down_and_the_cage_carries_them_at_the_sides():

@@ -58,7 +58,7 @@ class _Groove(NamedTuple):
 def ball_friction(
     result: ContactResult[BallRaceways], speed: ArrayLike, options: FrictionOptions
 ) -> BearingFriction:
-    """Film, Λ and losses of every contact of a ball bearing with rigid rings.
+    """Film, Λ and losses of every contact of a ball bearing.
 
     Parameters
     ----------

@@ -18,6 +18,7 @@ from loadflow.numerics.fields import check_fields
 from loadflow.rolling.motion.crank import CrankDrive
 from loadflow.rolling.motion.kinematics import Value
 from loadflow.rolling.motion.radial_load import LineLaw, radial_distribution
+from loadflow.rolling.rings.equilibrium import FlexibleRingForces
 
 if TYPE_CHECKING:
     from loadflow.rolling.results import ContactResult
@@ -27,6 +28,7 @@ Array = NDArray[np.float64]
 
 STEEL_DENSITY = 7850.0  # kg/m³
 GRAVITY = 9.81  # m/s²
+_APPROACH = 0.9  # power of the load that the approach of a roller is
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -263,8 +265,8 @@ def bearing_histories(
 ) -> list[RollerHistory]:
     """Rollers of each row of a bearing under a load series, outer ring at rest.
 
-    The rings move as under rollers that stand still, which for many rollers is as good; each
-    roller's load is that at its own place in the turning cage.
+    The rings move, and bend where they are flexible, as under rollers that stand still, which for
+    many rollers is as good; each roller's load is that at its own place in the turning cage.
 
     Parameters
     ----------
@@ -284,8 +286,6 @@ def bearing_histories(
     InputError
         If the times do not fit the cases, or do not rise.
     """
-    from loadflow.rolling import _forces
-
     bearing, t = result.bearing, np.asarray(time, float)
     if result.cases != t.shape:
         raise InputError(f"time: shape {result.cases} of the load cases is needed, got {t.shape}")
@@ -294,12 +294,8 @@ def bearing_histories(
     rest = np.zeros_like(t)
     cage = np.asarray(row.cage_speed(omega, rest))
     angle = turned(t, cage)
-    shift, cos, sin = result.displacement.copy(), np.cos(angle), np.sin(angle)
-    for i, j in ((0, 1), (3, 4)):  # as the cage sees it
-        x, y = result.displacement[:, i], result.displacement[:, j]
-        shift[:, i], shift[:, j] = cos * x + sin * y, cos * y - sin * x
-    around_cos, around_sin, spans, table, *_ = result.contacts.arguments
-    forces = _forces.row_forces(shift, around_cos, around_sin, spans, table, bearing.rows)
+    flexible = isinstance(result.elements, FlexibleRingForces)
+    forces = _between_places(result, angle) if flexible else _between_rigid_rings(result, angle)
     outward, tangential = _carried(row, t, cage, angle[:, None] + row.places - down, gravity)
     return [
         RollerHistory(
@@ -308,6 +304,38 @@ def bearing_histories(
         )
         for i in range(bearing.rows)
     ]  # fmt: skip
+
+
+def _between_rigid_rings(result: ContactResult[RollerRaceways], angle: Array) -> Array:
+    """Loads (n, row, roller), N, of rollers that a cage has turned by `angle` (n,)."""
+    from loadflow.rolling import _forces
+
+    shift, cos, sin = result.displacement.copy(), np.cos(angle), np.sin(angle)
+    for i, j in ((0, 1), (3, 4)):  # as the cage sees it
+        x, y = result.displacement[:, i], result.displacement[:, j]
+        shift[:, i], shift[:, j] = cos * x + sin * y, cos * y - sin * x
+    around_cos, around_sin, spans, table, *_ = result.contacts.arguments
+    return np.asarray(
+        _forces.row_forces(shift, around_cos, around_sin, spans, table, result.bearing.rows)
+    )
+
+
+def _between_places(result: ContactResult[RollerRaceways], angle: Array) -> Array:
+    """Loads as of `_between_rigid_rings`, from those at the places of rollers that stand.
+
+    Rings that bend are known there alone. In between the approach, load^0.9, goes in a line.
+    """
+    forces = result.roller_forces
+    count = forces.shape[-1]
+    passed = angle * count / (2 * np.pi)
+    whole = np.floor(passed)
+    first = (whole[:, None].astype(int) + np.arange(count)) % count
+    approach = forces**_APPROACH
+    before, after = (
+        np.take_along_axis(approach, at[:, None], axis=-1) for at in (first, (first + 1) % count)
+    )
+    part = (passed - whole)[:, None, None]
+    return np.asarray(((1 - part) * before + part * after) ** (1 / _APPROACH))
 
 
 def crank_history(
