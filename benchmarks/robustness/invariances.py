@@ -6,11 +6,14 @@ Bearings of `benchmarks.robustness.families` are asked again
 
 - in other units: every length, pressure and time that their user states times a factor;
 - in a mirror: the second axis the other way, and with it speed, load, line, bore and grooves;
-- in company: after a lighter load in the same series;
-- the other way: for the load that the film carries at the position found.
+- turned by whole cells, with load, line, bore and grooves; and by an angle that moves cells, where
+  what changes may be no more than the bounds of both say;
+- in company: between a lighter and a heavier load of one series, in both orders;
+- the other way: for the load that the film carries at the position found;
+- there and back: for the place at which the load of a film at another place is carried.
 
 Each must have an answer where the draw has one, and the same numbers. Printed: every one that does
-not, then the count of each family.
+not, then the count of each family. `--rung reduced` asks all of them of that rung.
 """
 
 from __future__ import annotations
@@ -48,6 +51,8 @@ Units = tuple[float, float, float]
 UNITS: tuple[Units, ...] = ((0.01, 1.0, 1.0), (8.0, 1.0, 1.0), (1.0, 1e3, 1.0), (1.0, 1.0, 1e3))
 TOLERANCE = 1e-6  # of the scaled residual 1e-10 of heavy loads, whose stiffness is large
 CAP = 20.0  # s of processor time
+CELLS = 7  # that a bearing is turned by
+ASIDE = 0.777  # rad, of no count of cells
 
 _LENGTHS = "diameter width inner_radius outer_radius taper slant clearance distance height length"
 _LENGTHS += " depth z axial outer_diameter thickness roughness summit_height"
@@ -179,12 +184,58 @@ def _turned(part: Any) -> Any:
     return replace(part, angle=-part.angle) if isinstance(part, (Groove, Recess)) else part
 
 
+def turned(case: Asked, by: float) -> Asked | None:
+    """The same, all of it turned by an angle, rad; None of what is no journal bearing."""
+    if not isinstance(case.bearing, JournalBearing):
+        return None
+    shape = case.bearing.shape
+    if isinstance(shape, (Arc, Lobes, TiltingPads)):
+        shape = replace(shape, angle=_around(shape.angle + by))
+    relief = tuple(_moved(one, by) for one in case.bearing.relief)
+    film = case.film
+    if film.supply is not None:
+        grooves = tuple(_moved(one, by) for one in film.supply.grooves)
+        film = replace(film, supply=replace(film.supply, grooves=grooves))
+    cos, sin = np.cos(by), np.sin(by)
+    matrix = np.array([[cos, -sin], [sin, cos]])
+    along = ("force", "bend", "moment", "tilt")
+    given = {name: x @ matrix.T if name in along else x for name, x in case.given.items()}
+    bearing = replace(case.bearing, shape=shape, relief=relief)
+    return replace(case, bearing=bearing, film=film, given=given)
+
+
+def _moved(part: Any, by: float) -> Any:
+    """A groove or relief farther around."""
+    if isinstance(part, Contour):
+        angle = (np.asarray(part.angle) + by) % (2 * np.pi)
+        order = np.argsort(angle)
+        return replace(
+            part, angle=angle[order].tolist(), height=np.array(part.height)[order].tolist()
+        )
+    more = isinstance(part, (Groove, Recess))
+    return replace(part, angle=_around(part.angle + by)) if more else part
+
+
+def _around(angle: float) -> float:
+    """The angle between -π and π, rad."""
+    return float((angle + np.pi) % (2 * np.pi) - np.pi)
+
+
+def on_reduced(case: Asked) -> Asked:
+    """The same on the rung "reduced"."""
+    return replace(case, film=replace(case.film, rung="reduced", inlet=None))
+
+
 def numbers(
-    result: Any, units: Units = (1.0, 1.0, 1.0), mirror: bool = False, of: int | None = None
+    result: Any,
+    units: Units = (1.0, 1.0, 1.0),
+    mirror: bool = False,
+    by: float = 0.0,
+    of: int | None = None,
 ) -> dict[str, Array]:
     """Place, film, pressure and friction of a result, as in units and frame of the draw.
 
-    Of a series those of load number `of`.
+    Of one that was turned `by` an angle, as before; of a series those of load number `of`.
     """
     found = {}
     for name, powers in _VALUES.items():
@@ -194,6 +245,9 @@ def numbers(
             found[name] = value / np.prod([unit**power for unit, power in zip(units, powers)])
     if mirror and "eccentricity" in found:
         found["eccentricity"] = found["eccentricity"] * [1.0, -1.0]
+    if by and "eccentricity" in found:
+        cos, sin = np.cos(by), np.sin(by)
+        found["eccentricity"] = found["eccentricity"] @ np.array([[cos, -sin], [sin, cos]])
     return found
 
 
@@ -211,24 +265,28 @@ def solved(case: Asked) -> tuple[Any, str]:
 def broken(case: Asked) -> Iterator[str]:
     """What a case breaks, each with how far its numbers are off."""
     first, why = solved(case)
-    others: list[tuple[str, Asked | None, Units, bool]] = [
-        (f"in units {units}", None if case.film.heat else in_units(case, units), units, False)
+    whole = CELLS * 2.0 * np.pi / case.film.cells[0]
+    others: list[tuple[str, Asked | None, dict[str, Any]]] = [
+        (f"in units {units}", None if case.film.heat else in_units(case, units), {"units": units})
         for units in UNITS
     ]
-    others.append(("in the mirror", mirrored(case), (1.0, 1.0, 1.0), True))
-    for name, other, units, mirror in others:
+    others.append(("in the mirror", mirrored(case), {"mirror": True}))
+    others.append(("turned", turned(case, whole), {"by": whole}))
+    for name, other, seen in others:
         if other is None:
             continue
         again, why_not = solved(other)
         if (again is None) != (first is None):
             yield f"{name}: {why or 'answered'}, and {why_not or 'answered'}"
         elif first is not None:
-            yield from _apart(name, numbers(first), numbers(again, units, mirror))
+            yield from _apart(name, numbers(first), numbers(again, **seen))
     if first is None or case.verb != "equilibrium" or not isinstance(case.bearing, JournalBearing):
         return
     yield from _in_company(case, first)
-    if "moment" not in case.given and case.film.heat is None:
-        yield from _other_way(case, first)
+    yield from _between_cells(case, first)
+    if "moment" not in case.given and case.film.heat is None and case.film.shell is None:
+        yield from _other_way(case, first)  # a shell may have two films at one position
+        yield from _there_and_back(case, first)
 
 
 def _apart(name: str, one: dict[str, Array], other: dict[str, Array]) -> Iterator[str]:
@@ -240,23 +298,36 @@ def _apart(name: str, one: dict[str, Array], other: dict[str, Array]) -> Iterato
 
 
 def _in_company(case: Asked, alone: Any) -> Iterator[str]:
-    """The load after a lighter one."""
-    given = {name: np.stack([value, value]) for name, value in case.given.items() if value.ndim}
-    given["force"] = given["force"] * np.array([[0.3], [1.0]])
-    both = replace(case, given=case.given | given, options=case.options | {"strict": False})
-    series, why = solved(both)
-    if series is None or not series.converged[1]:
-        yield f"in company: {why or 'no answer'}"
+    """The load between a lighter and a heavier one, in both orders."""
+    for name, shares in (("after a lighter one", (0.3, 1.0, 1.5)), ("before", (1.5, 1.0, 0.3))):
+        given = {key: np.stack(3 * [value]) for key, value in case.given.items() if value.ndim}
+        given["force"] = given["force"] * np.array(shares)[:, None]
+        both = replace(case, given=case.given | given, options=case.options | {"strict": False})
+        series, why = solved(both)
+        if series is None or not series.converged[1]:
+            yield f"{name}: {why or 'no answer'}"
+            continue
+        yield from _apart(name, numbers(alone), numbers(series, of=1))
+
+
+def _between_cells(case: Asked, first: Any) -> Iterator[str]:
+    """What changes as cells lie elsewhere, over the bounds of both."""
+    other = turned(case, ASIDE)
+    again = solved(other)[0] if other is not None else None
+    if again is None or not (first.resolved and again.resolved):
         return
-    yield from _apart("in company", numbers(alone), numbers(series, of=1))
+    for name, bound in vars(first.grid_error).items():
+        both = bound + getattr(again.grid_error, name)
+        off = abs(getattr(first, name) - getattr(again, name))
+        if name == "attitude_angle":
+            off = min(off, 2.0 * np.pi - off)
+        if off > both + TOLERANCE * abs(getattr(first, name)):
+            yield f"between cells: {name} {float(off / both):.2g} of both bounds"
 
 
 def _other_way(case: Asked, found: Any) -> Iterator[str]:
     """The load of the film at the position found, on the cells that it was found on."""
-    place = {"eccentricity": found.eccentricity, "speed": case.given["speed"], **case.held}
-    if case.film.shell is not None:
-        return  # which may have two films at one position
-    field, why = solved(replace(case, verb="pressure", given=place))
+    field, why = _at(case, found.eccentricity)
     if field is None:
         yield f"at its position: {why}"
         return
@@ -267,18 +338,44 @@ def _other_way(case: Asked, found: Any) -> Iterator[str]:
         yield f"at its position: {off:.1e} of the load off"
 
 
+def _there_and_back(case: Asked, found: Any) -> Iterator[str]:
+    """The place of the load of the film at a place nearer to the middle, over the clearance."""
+    place = 0.9 * np.asarray(found.eccentricity)
+    field, _ = _at(case, place)
+    if field is None or not field.resolved or not np.hypot(*field.force) > 0.0:
+        return
+    back, why = solved(replace(case, given=case.given | {"force": np.asarray(field.force)}))
+    if back is None:
+        yield f"there and back: {why}"
+        return
+    if not back.resolved:
+        return
+    off = np.hypot(*(back.eccentricity - place)) / case.bearing.clearance
+    if not off < TOLERANCE:
+        yield f"there and back: {off:.1e} of the clearance off"
+
+
+def _at(case: Asked, place: Array) -> tuple[Any, str]:
+    """The film of a case at a place."""
+    given = {"eccentricity": place, "speed": case.given["speed"], **case.held}
+    return solved(replace(case, verb="pressure", given=given))
+
+
 def main() -> None:
     """Draw and print what is broken."""
     parser = arguments(__doc__)
     parser.add_argument("families", nargs="*", default=list(FAMILIES), metavar="FAMILY")
     parser.add_argument("--draws", type=int, default=20)
     parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--rung", choices=["grid", "reduced"], default="grid")
     given = parser.parse_args()
     warnings.simplefilter("ignore")
     for family in given.families:
         count = 0
         for number in range(given.first, given.first + given.draws):
-            for text in broken(asked(family, number)):
+            case = asked(family, number)
+            case = on_reduced(case) if given.rung == "reduced" else case
+            for text in broken(case):
                 count += 1
                 print(f"{family} {number} {text}", flush=True)
         print(f"{family}: {count} broken of {given.draws} draws", flush=True)

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from hard_case import Outcome, hard, solved
 
 from loadflow.journal import (
     ConicalBearing,
     ConstantFlow,
+    Contact,
+    Contour,
     Film,
     FilmHeat,
     GasMixture,
@@ -20,10 +24,11 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
-from loadflow.tribology import lubricant
+from loadflow.tribology import AsperityContact, ShaftImprint, lubricant
 
 SMALL = JournalBearing(diameter=0.2, width=0.2, relative_clearance=1e-3)
 MIXED = {"lubricant": Lubricant(0.03), "cavitation": GasMixture(5e4), "edge_pressure": 1.5e5}
+ROUGH = Contact(AsperityContact(roughness=1e-6, contact_modulus=115e9, factor=1e-3), friction=0.1)
 
 
 def _path(orbit, text: str) -> Outcome:
@@ -117,6 +122,79 @@ def thin_shell_in_motion():
     assert float(orbit["eccentricity_ratio"].max()) > 1
     assert float(orbit["minimum_film"].min()) > orbit.attrs["minimum_film_grid_error"]
     return _path(orbit, f"ε ≤ {float(orbit['eccentricity_ratio'].max()):.2f}")
+
+
+@hard(
+    "journal",
+    "speed through zero under load in motion, both ways",
+    why="the wedge fades and turns round while the squeeze lets the shaft down onto the asperities",
+    what="asperities and squeeze stand in every step; the mirrored path is its mirror image, and "
+    "ends in the film that it began with",
+    tolerance=1e-6,
+)
+def through_zero_in_motion():
+    time = np.linspace(0.0, 400.0, 41)
+    speed, load = 2.0 * np.cos(np.pi * time / 400.0), np.tile((2e4, 5e3), (41, 1))
+    shares = []
+    for rung in ("grid", "reduced"):
+        film = Film(**MIXED, contact=ROUGH, rung=rung, grid=(48, 12), inlet=None)
+        one = SMALL.orbit(time, load, speed, film)
+        other = SMALL.orbit(time, load * (1.0, -1.0), -speed, film)
+        films = one["minimum_film"].values
+        np.testing.assert_allclose(other["minimum_film"].values, films, rtol=1e-9)
+        share = one["contact_share"].values
+        assert share.argmax() in (20, 21)  # the squeeze is still going on where the speed is zero
+        assert 0.5 < share.max() < 1.0 - 1e-3
+        assert share[0] < 1e-6
+        assert films.min() > 0.0
+        assert abs(films[-1] / films[0] - 1.0) < 1e-3
+        shares.append(float(share.max()))
+    assert abs(shares[1] / shares[0] - 1.0) < 0.03
+    return _path(one, f"share of contact 0 … {shares[0]:.2f} … 0")
+
+
+@hard(
+    "journal",
+    "wear deeper than the film",
+    why="60 µm off, forty times the film: the shaft lies in its imprint at ε = 1.6",
+    what="the worn bore is the gap of film and asperities; the eccentricity has no bound at 1",
+)
+def worn_deeply():
+    bearing = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+    deep = ShaftImprint(largest_depth=60e-6, clearance=bearing.clearance)
+    angle = 2 * np.pi / 720 * np.arange(720)
+    worn = replace(bearing, relief=(Contour(angle.tolist(), deep.depth(angle).tolist()),))
+    film = Film(**MIXED, contact=ROUGH, grid=(120, 8))
+    speeds = np.array([0.0, 0.1, 10.0])
+    state = worn.equilibrium((4e4, 0.0), speeds, film)
+    assert np.all(state.eccentricity_ratio > 1.5)
+    assert np.all(state.minimum_film > 0.0)
+    assert abs(state.contact_share[0] - 1.0) < 1e-6
+    # an imprint fits its shaft: at low speed it has no wedge, and its film carries nothing
+    assert state.contact_share[1] > 0.95
+    assert 0.0 < state.contact_share[2] < 0.5
+    assert state.minimum_film[-1] < 0.2 * 60e-6
+    shares = ", ".join(f"{share:.2f}" for share in state.contact_share)
+    return solved(state, f"ε = {float(state.eccentricity_ratio.max()):.2f}, contact {shares}")
+
+
+@hard(
+    "journal",
+    "one pad of a cone unloaded",
+    why="the pad has no stiffness but that of its springs, the others share what it leaves",
+    what="its row is that of the springs alone; the load at the position leads back to it",
+)
+def one_unloaded_pad():
+    pivot = Pivot(0.6, stiffness=1e9, tilt_stiffness=1e7)
+    cone = ConicalBearing(0.5, (1.0, 1.4), 1e-4, pads=5, pad_angle=1.1, pivot=pivot)
+    film = Film(Lubricant(0.05), Guembel(), grid=(20, 10))
+    place = (3e-5, 0.0, 0.0)
+    held = cone.pressure(place, 10.0, film)
+    assert int((held.normal_force == 0.0).sum()) == 1
+    state = cone.equilibrium(held.force, 10.0, film, moment=held.moment)
+    np.testing.assert_allclose(state.eccentricity, place, atol=1e-6 * cone.clearance)
+    np.testing.assert_allclose(state.normal_force, held.normal_force, rtol=1e-6, atol=1e-3)
+    return solved(state, "1 of 5 pads carries nothing")
 
 
 @hard(

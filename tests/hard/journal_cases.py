@@ -8,6 +8,7 @@ from hard_case import Outcome, hard, refused, solved
 from loadflow.journal import (
     ConstantFlow,
     Contact,
+    Film,
     GasMixture,
     Groove,
     Guembel,
@@ -300,6 +301,33 @@ def thinner_than_rough():
     assert np.all(state.minimum_film > 0)
     found = f"ε = {float(state.eccentricity_ratio[-1]):.5f}, "
     return solved(state, found + f"h_min/σ = {float(state.minimum_film[-1]) / 1e-6:.3f}")
+
+
+@hard(
+    "journal",
+    "ε = 0.999 and 0.9999 with contact, there and back",
+    why="film and asperities both stiffen without bound, and their shares change by the nanometre",
+    what="cells crowd at the gap; the load of the film and of the asperities at the position found "
+    "leads back to it, by each law",
+)
+def touching_deeply():
+    rough = Contact(AsperityContact(roughness=5e-7, contact_modulus=115e9, factor=1e-3))
+    worst, shares = [], []
+    for law, grid in ((Reynolds(), (60, 12)), (MassConserving(), (60, 12)), (Guembel(), (60, 12))):
+        film = Film(OIL, law, 0.5e6, contact=rough, grid=grid)
+        for ratio in (0.999, 0.9999):
+            place = (ratio * MAIN.clearance, 0.0)
+            held = MAIN.pressure(place, 0.1, film)
+            state = MAIN.equilibrium(held.force, 0.1, film)
+            off = np.hypot(*(state.eccentricity - place)) / MAIN.clearance
+            assert off < 1e-6 * (1.0 - ratio)
+            assert state.resolved
+            assert 0.0 < state.contact_share < 1.0
+            worst.append(state)
+            shares.append(float(state.contact_share))
+    assert shares[1] > shares[0]
+    last = max(worst, key=lambda state: float(state.residual))
+    return solved(last, f"asperities carry {shares[0]:.1%} and {shares[1]:.1%} of the load")
 
 
 @hard(

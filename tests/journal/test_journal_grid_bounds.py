@@ -52,6 +52,8 @@ def test_one_film_bounds_the_error_of_its_cells(case):
         error = abs(getattr(own, name) - getattr(fine, name))
         assert error < bound, name
     assert own.grid_error.minimum_film < 0.1 * own.minimum_film
+    if case != "fed":  # load is left out along itself, which hardly turns the shaft
+        assert own.grid_error.attitude_angle < 0.1
     assert own.resolved
 
 

@@ -105,6 +105,24 @@ def test_few_cells_about_a_narrow_gap_are_told():
     assert not state.resolved
 
 
+@pytest.mark.filterwarnings("ignore:the cells do not resolve")
+@pytest.mark.parametrize("law", ["guembel", "mass-conserving"])
+def test_a_gap_that_even_cells_do_not_resolve_is_of_the_grid_by_sharp_laws_too(law):
+    """Its cells crowd there from the beginning: on the even ones h_min is a quarter off."""
+    film, geometry, _ = asked((law,), "reduced")
+    film = replace(film, grid=(60, 12), grading="auto", inlet=None)
+    bearing, load = JournalBearing(**BEARING | {"shape": geometry.shape}), (1e7, 0.0)
+    own = bearing.equilibrium(load, SPEED, film)
+    even = bearing.equilibrium(load, SPEED, replace(film, grading="uniform"))
+    of_grid = bearing.equilibrium(load, SPEED, replace(film, rung="grid"))
+    assert own.resolved
+    assert own.minimum_film == pytest.approx(float(of_grid.minimum_film), rel=1e-9)
+    assert not even.resolved
+    assert abs(even.minimum_film / own.minimum_film - 1.0) > 0.15
+    held = bearing.pressure(own.eccentricity, SPEED, film)
+    np.testing.assert_allclose(held.force, load, atol=1e-6 * load[0])
+
+
 def test_bounds_are_alike_those_of_the_grid():
     bearing, film, _ = described("mixture", (60, 20))  # on the same cells around
     few = bearing.equilibrium(FORCES[:3], SPEED, film).relative_grid_error

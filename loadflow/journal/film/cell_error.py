@@ -27,7 +27,9 @@ Numbers = TypeVar("Numbers", float, Array)
 LOAD_SHARE = 1.0 / 6.0  # of the load, of all second differences
 _PEAK, _AT_PEAK = 0.4, 0.1  # of the peak, of all of them and of those next to it
 _FED = 1.25  # of the peak beside grooves, at whose edges the pressure has corners
-_TURN = 2.5  # of the attitude, of the way of the shaft: it turns more readily than it moves
+# of the attitude, of the way that the shaft may take at most: load is left out along itself, which
+# hardly turns the shaft, but for grooves, which lie where they are
+_TURN, _FED_TURN = 0.5, 2.5
 _FED_MOVES = 1.6  # of the way of the shaft beside grooves
 _SHEAR, _DRAG = 1.0 / 30.0, 0.3  # of friction, of all of them and of the change of the gap
 # where the unknowns lie on nodes and the film ends on the edges; the whole gap may close there
@@ -171,7 +173,8 @@ def resting_errors(left: Left, balance: Balance) -> Array:
     outward, sideways, closer = moved[..., 0], moved[..., 1], moved[..., 2]
     out = np.zeros((*far.shape, 7))
     out[..., 1] = np.where(far > 0.0, outward / known, 0.0)
-    out[..., 2] = np.where(far > 0.0, _TURN * np.hypot(outward, sideways) / known, 0.0)
+    turn = _FED_TURN if balance.fed else _TURN
+    out[..., 2] = np.where(far > 0.0, turn * np.hypot(outward, sideways) / known, 0.0)
     closer = closer * balance.opens  # rough surfaces keep a gap between them as their planes close
     whole, shifted = np.hypot(balance.load[..., 0], balance.load[..., 1]), 0.0
     if balance.touching is not None:  # what the film leaves, asperities take

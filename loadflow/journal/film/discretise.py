@@ -55,6 +55,18 @@ def is_cylindrical(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     return not (bearing.shape.segments or bearing.relief or given) and line.straight
 
 
+def crowds_around(bearing: JournalGeometry, film: Film, line: Line) -> bool:
+    """Whether the grid may crowd cells at a narrowest gap that even ones around do not resolve.
+
+    By a smooth law it does so where they do not, by others from the beginning, about a shaft whose
+    gap is narrowest all along the bore.
+    """
+    sharp = film.grading == "auto" and film.crowds and film.supply is None
+    return film.may_grade or (
+        sharp and film.contact is None and is_cylindrical(bearing, film, line)
+    )
+
+
 def build_film(
     diameter: float, width: float, relative_clearance: float, options: Film, *grooves: float
 ) -> DiscreteFilm:

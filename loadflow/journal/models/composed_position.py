@@ -15,6 +15,7 @@ from scipy.interpolate import CubicHermiteSpline
 
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.cell_error import held_errors
+from loadflow.journal.film.discretise import crowds_around
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -101,6 +102,7 @@ class Positions:
         viscosity: Thickness | None = None,
     ) -> None:
         self.bearing, self.options, self.line = bearing, options, line
+        self._crowding = crowds_around(bearing, options, line)
         self.position, self.velocity, self.speed = position, velocity, speed
         self.control, self.across, self.viscosity = control, across, viscosity
         self.models: dict[tuple[int, int, int | None], ComposedFilm] = {}
@@ -169,7 +171,7 @@ class Positions:
             row = self._approach(n, model, place, slopes, row[at.ITERATIONS])
         left = self.across is None and bool(model.unresolved_across(row[None])[0])
         found = row[at.CONVERGED] > 0.0 and not falls_dry(model.units, row[at.RESULTS :])
-        found = bool(found and (not self.options.may_grade or model.resolves(place)))
+        found = bool(found and (not self._crowding or model.resolves(place)))
         force = work.load[:2] + work.touch[0, :2]
         pressure = work.thick[PRESSURE] if model.film.thickening.on else work.state[P]
         film = work.u.copy(), pressure.copy()

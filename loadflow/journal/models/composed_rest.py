@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.cell_error import Balance, resting_errors
+from loadflow.journal.film.discretise import crowds_around
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -110,6 +111,7 @@ def films_at_rest(
     that of `build`.
     """
     model = build(bearing, options, speed, line, level, at_rest=True, viscosity=viscosity)
+    crowding = crowds_around(bearing, options, line)
     work, count = model.work, speed.size
     rows = np.zeros((count, model.columns))
     both = 4 if model.whole else 2
@@ -135,7 +137,7 @@ def films_at_rest(
             row = loads.solve(start.place, n, slopes=slopes)
             residual, iterations, answered, rounding = row[at.RESIDUAL : at.RESULTS]
             spent += start.spent + int(iterations)
-            converged = answered > 0.0 and (not options.may_grade or model.resolves(start.place))
+            converged = answered > 0.0 and (not crowding or model.resolves(start.place))
             converged = converged and not falls_dry(model.units, row[at.RESULTS :])
             none[n] = start.first and _MISSED < residual < 1.0 and model.touches(start.place)
             if converged:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.film.cell_error import Balance, resting_errors
+from loadflow.journal.film.discretise import crowds_around
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_shaped import ShapedGap
@@ -92,6 +93,7 @@ def equilibrium(
     reduced, work = _discrete(bearing, options, film)
     half = float(film.mesh.z_edges[-1])
     count, bore, smooth = speed.size, Bore.of(bearing), options.law.smooth
+    crowding = crowds_around(bearing, options, line)
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
     judged = Judged(reduced.ring, half_width_nodes(half, POINTS), False, count)
@@ -105,7 +107,7 @@ def equilibrium(
             )  # fmt: skip
             spent += iterations
             answered = converged
-            if converged and options.may_grade:
+            if converged and crowding:
                 narrow = float(bore.narrowest(np.array([[x, y]]))[0])
                 converged = film.resolves(np.array([1.0 - narrow, 0.0]))
             if converged:
