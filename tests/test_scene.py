@@ -52,7 +52,7 @@ def test_a_negative_viscosity_is_named_with_its_range(tmp_path):
 
 
 def test_a_name_that_no_folder_has_is_told_what_may_stand_in_it():
-    with pytest.raises(InputError, match="name = 'own 4.2 MW': letters from a to z, digits"):
+    with pytest.raises(InputError, match=r"name = .own 4\.2 MW.: letters from a to z, digits"):
         make_scene({"name": "own 4.2 MW"})
 
 

@@ -55,8 +55,8 @@ def read_loads(
         seed.
     channels : mapping, path or str, optional
         Component of the cube (``speed``, ``hub_force_x``, …), or ``time`` of CSV files → channel
-        of the files, where a leading minus turns the sign; or a TOML file of them, see `read_channels`. Needed for
-        HAWC2, whose files do not tell the frame.
+        of the files, where a leading minus turns the sign; or a TOML file of them, see
+        `read_channels`. Needed for HAWC2, whose files do not tell the frame.
     gauge_distance : float, optional
         Distance from the rotor apex to the shaft strain gauge, m; see `read_openfast`.
     frame : {"auto", "fixed", "rotating"}
