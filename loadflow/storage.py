@@ -44,6 +44,11 @@ def written_whole(path: Path) -> Iterator[Path]:
         with temporary.open("rb+") as stream:
             os.fsync(stream.fileno())
         os.replace(temporary, path)
+    except OSError as error:
+        if error.errno is None or error.filename not in (None, str(temporary)):
+            raise
+        said = error.strerror or os.strerror(error.errno)  # of a full disk no name is told
+        raise OSError(error.errno, said, str(path)) from error
     finally:
         with suppress(OSError):  # the disk may be gone, and the first error is the one to tell
             temporary.unlink(missing_ok=True)

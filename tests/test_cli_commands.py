@@ -371,7 +371,7 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
         ),
         (
             ["journal", *JOURNAL, "--diameter", -3, "--force-x", 1, "--speed-rpm", 1],
-            "diameter = -3.0 is not allowed: must be > 0 m",
+            "diameter = -3.0 is not allowed: 0 … 100, in m",
         ),
         (["rolling", *ROLLING, "--groove-radius", 0.01], "groove_radius"),
         (["rolling", *ROLLING, "--groove-radius", 0.0205, "--force-z", "nan"], "nan"),

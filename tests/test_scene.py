@@ -51,6 +51,11 @@ def test_a_negative_viscosity_is_named_with_its_range(tmp_path):
     assert "greater than 0" in message
 
 
+def test_a_name_that_no_folder_has_is_told_what_may_stand_in_it():
+    with pytest.raises(InputError, match=r"name = .own 4\.2 MW.: letters from a to z, digits"):
+        make_scene({"name": "own 4.2 MW"})
+
+
 def test_a_value_of_the_wrong_kind_is_named(tmp_path):
     message = refused('[loads]\nduration = "ten minutes"\n', tmp_path)
     assert "loads.duration = 'ten minutes'" in message

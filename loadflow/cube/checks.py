@@ -157,7 +157,8 @@ def regular_time(stamps: ArrayLike, where: str = "time") -> tuple[float, NDArray
         i = int(np.argmax(odd > 0.5 * odd.max())) + 1
         raise InputError(
             f"{where}, variable 'time', index {i}: steps are not equal, {t[i - 1]:g} s is followed "
-            f"by {t[i]:g} s where the usual step is {usual:g} s"
+            f"by {t[i]:g} s where the usual step is {usual:g} s; cut it at gaps, and interpolate "
+            "steps that vary to equal ones"
         )
     return step, t[0] + step * np.arange(t.size)
 

@@ -8,8 +8,11 @@ them.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, Literal, TypedDict
+
+import numpy as np
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw, Reynolds
@@ -244,6 +247,10 @@ _INLETS = '"auto", "widest gap" or None'
 _GRADINGS = ("auto", "uniform", "graded")
 _KINDS = (
     ("lubricant", Lubricant, "a Lubricant, such as Lubricant(viscosity=0.05)"),
+    ("cavitation", CavitationLaw, "a law of cavitation, such as GasMixture(50e3) or Reynolds()"),
+    ("supply", Supply, "a Supply"),
+    ("shell", Shell, "a shell, such as ThickShell(outer_diameter=1.8, modulus=210e9)"),
+    ("heat", Heat | FilmHeat | PadHeat, "a Heat, FilmHeat or PadHeat"),
     ("contact", Contact, "a Contact"),
     ("turbulence", Turbulence, "a Turbulence"),
 )
@@ -255,8 +262,10 @@ def check_grid(grid: tuple[int, int]) -> tuple[int, int]:
     Raises
     ------
     loadflow.errors.InputError
-        Fewer than eight around, or an odd number across.
+        No two numbers, fewer than eight around, or an odd number across.
     """
+    two = isinstance(grid, Sequence | np.ndarray) and len(grid) == 2
+    require(two, "grid", grid, "cells around and across, such as (60, 20)")
     nx, nz = (int(cells) for cells in grid)
     require(nx >= 8, "grid[0]", nx, "at least 8 cells around")
     require(nz >= 2 and nz % 2 == 0, "grid[1]", nz, "an even number of cells across the width")

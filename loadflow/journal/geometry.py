@@ -32,7 +32,7 @@ class JournalGeometry:
     Raises
     ------
     loadflow.errors.InputError
-        A length that is not > 0, ψ outside 0 … 0.1.
+        A length outside 0 … 100 m, ψ outside 0 … 0.1.
 
     Examples
     --------
@@ -44,15 +44,15 @@ class JournalGeometry:
     1.19
     """
 
-    diameter: Annotated[float, Gt(0)]
-    width: Annotated[float, Gt(0)]
+    diameter: Annotated[float, Gt(0), Lt(100.0)]
+    width: Annotated[float, Gt(0), Lt(100.0)]
     relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
     shape: Shape = CYLINDER
     relief: tuple[Relief, ...] = ()
 
     def __post_init__(self) -> None:
-        require(self.diameter > 0, "diameter", self.diameter, "must be > 0 m")
-        require(self.width > 0, "width", self.width, "must be > 0 m")
+        for name, length in (("diameter", self.diameter), ("width", self.width)):
+            require(0 < length < 100.0, name, length, "0 … 100, in m")  # more was meant in mm
         psi = self.relative_clearance
         require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
         object.__setattr__(self, "relief", tuple(self.relief))

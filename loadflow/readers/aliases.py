@@ -26,6 +26,9 @@ COMPONENTS = tuple(
 GAUGE = {"hub_moment_y": "gauge_moment_y", "hub_moment_z": "gauge_moment_z"}
 """Bending moments at the strain gauge, from which those at the rotor apex follow."""
 
+TIME = "time"
+"""Time stamps of a format that does not say itself which column they are."""
+
 POWER = "rotor_power"
 """Power on the shaft: never in the cube, but torque and speed are checked against it."""
 
@@ -121,7 +124,7 @@ def read_channels(source: str | os.PathLike[str] | Channels) -> dict[str, tuple[
         data = _parse(str(source))
     else:
         data, where = _load(Path(source)), str(source)
-    known = (*COMPONENTS, *GAUGE.values(), POWER)
+    known = (*COMPONENTS, *GAUGE.values(), POWER, TIME)
     found = {}
     for key, names in data.items():
         if key not in known:

@@ -15,6 +15,7 @@ from loadflow.readers.aliases import (
     OPTIONAL,
     POWER,
     ROOT,
+    TIME,
     Aliases,
     Channels,
     Frame,
@@ -73,6 +74,8 @@ def choose(
     if gauge_distance is not None and not abs(gauge_distance) < 100:
         raise InputError(f"gauge_distance = {gauge_distance!r} m: must be between -100 and 100")
     own = read_channels(channels)
+    if TIME in own and TIME not in known.fixed:
+        raise InputError(f"{table.source}: channels: files of this format say the time themselves")
     allowed = FRAMES[frame]
     if frame == "auto" and any(key in own for key in (*LATERAL, *GAUGE.values())):
         allowed = (False,)  # of channels that a user names, only the user knows the frame

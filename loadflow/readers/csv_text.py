@@ -15,7 +15,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.readers.aliases import Channels, Frame, aliases
+from loadflow.readers.aliases import TIME, Channels, Frame, aliases, read_channels
 from loadflow.readers.series import to_series
 from loadflow.readers.table import Table
 from loadflow.readers.text import decoded, read_text
@@ -40,8 +40,8 @@ def read_csv(
     path : path
         File.
     channels : mapping, optional
-        Component of the cube → name of the column, where it is named otherwise. A leading minus
-        turns the sign.
+        Component of the cube, or ``time`` → name of the column, where it is named otherwise. A
+        leading minus turns the sign.
     gauge_distance : float, optional
         Distance from the rotor apex to where ``gauge_moment_y`` and ``_z`` were taken, m.
     frame : {"auto", "fixed", "rotating"}
@@ -73,7 +73,7 @@ def read_csv(
     >>> series["hub_force"].sel(axis="z").values.tolist(), series["hub_force"].units
     ([-700000.0, -690000.0], 'N')
     """
-    table = read_table(Path(path))
+    table = read_table(Path(path), channels)
     return to_series(table, aliases("csv"), channels, gauge_distance, frame)
 
 
@@ -81,11 +81,12 @@ def is_series(path: Path) -> bool:
     """Whether the heading of a CSV file has a column of the time, as a load series has."""
     with path.open("rb") as file:
         start = decoded(b"".join(file.readlines(2**16)))  # whole lines, as half a character is none
-    return re.search(r"(?:^|[,;\t])[ \"]*time\b", next(_rows(start), "")) is not None
+    heading = next(_rows(start), "").casefold()
+    return re.search(r"(?:^|[,;\t])[ \"]*time\b", heading) is not None
 
 
-def read_table(path: Path) -> Table:
-    """Read all columns of a CSV file as they are."""
+def read_table(path: Path, channels: Channels | None = None) -> Table:
+    """Read all columns of a CSV file as they are; `channels` may name the one of the time."""
     if not path.is_file():
         raise InputError(f"{path}: no such file")
     text = read_text(path)
@@ -107,11 +108,16 @@ def read_table(path: Path) -> Table:
     headings = [_heading(column, path) for column in columns]
     names = tuple(name for name, _ in headings)
     units = tuple(unit for _, unit in headings)
-    if "time" not in names:
-        raise InputError(f"{path}: column 'time' is missing; the file has {', '.join(names)}")
     series = [_numbers(frame[i], name, path) for i, name in enumerate(names)]
     table = Table(str(path), np.arange(len(frame)), names, units, np.column_stack(series))
-    return replace(table, stamps=table.series("time", "s"))
+    wanted = read_channels(channels or {}).get(TIME, aliases("csv").fixed[TIME])
+    stamps = next((name for name in wanted if table.find(name) is not None), None)
+    if stamps is None:
+        raise InputError(
+            f"{path}: column {' or '.join(map(repr, wanted))} is missing; {table.listing()}. "
+            'channels say which one has the time where it is named otherwise: time = "NAME"'
+        )
+    return replace(table, stamps=table.series(stamps, "s"))
 
 
 def _columns(text: str, path: Path) -> tuple[list[str], str, str]:

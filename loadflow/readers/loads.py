@@ -54,9 +54,9 @@ def read_loads(
         remains unknown becomes load case ``unknown``, the mean wind of the series, and a running
         seed.
     channels : mapping, path or str, optional
-        Component of the cube (``speed``, ``hub_force_x``, …) → channel of the files, where a
-        leading minus turns the sign; or a TOML file of them, see `read_channels`. Needed for
-        HAWC2, whose files do not tell the frame.
+        Component of the cube (``speed``, ``hub_force_x``, …), or ``time`` of CSV files → channel
+        of the files, where a leading minus turns the sign; or a TOML file of them, see
+        `read_channels`. Needed for HAWC2, whose files do not tell the frame.
     gauge_distance : float, optional
         Distance from the rotor apex to the shaft strain gauge, m; see `read_openfast`.
     frame : {"auto", "fixed", "rotating"}
@@ -210,10 +210,12 @@ def _expand(entry: Path) -> list[Path]:
     if entry.is_dir():
         fitting = sorted(p for p in entry.iterdir() if any(r.matches(p) for r in READERS))
         inside = [p for p in fitting if find_reader(p).recognises(p)]
+        others = sorted({p.name for p in fitting} - {p.name for p in inside})
+        told = ", ".join(others[:10]) + (", …" if len(others) > 10 else "")
         if not inside:
-            raise InputError(f"{entry}: the folder holds no load file")
-        if others := sorted({p.name for p in fitting} - {p.name for p in inside}):
-            told = ", ".join(others[:10]) + (", …" if len(others) > 10 else "")
+            more = f"; to read them all the same, name them or a pattern: {told}" if told else ""
+            raise InputError(f"{entry}: the folder holds no load file that is known as such{more}")
+        if others:
             message = f"{entry}: {len(others)} files are no load series, and left out: {told}"
             warnings.warn(message, ValidityWarning, stacklevel=3)
         return inside
@@ -271,7 +273,7 @@ class _Register:
         if name in self._names:
             raise InputError(
                 f"{path}: case {name!r} is already in {self._names[name]}; tell them apart by "
-                "name or by a list of cases"
+                "name, by a pattern of names or by a list of cases"
             )
         self._names[name] = path
         return CaseLabel(dlc, wind_speed, seed, label.weight, label.variant)

@@ -149,7 +149,8 @@ class Table:
 
     def listing(self) -> str:
         """Return what channels there are, for messages."""
-        valid = [self.names[i] for i in self._valid]
+        number = (lambda i: f"#{i + 1} ") if self.descriptions else (lambda i: "")
+        valid = [number(i) + self.names[i] for i in self._valid]  # where a name may repeat
         more = f" and {len(valid) - 60} more" if len(valid) > 60 else ""
         invalid = len(self.names) - len(valid)
         without = f"; {invalid} channels have the unit {UNKNOWN}" if invalid else ""

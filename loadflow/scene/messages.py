@@ -18,6 +18,10 @@ from loadflow.scene.places import AXIAL, GEOMETRIES, Location
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
 
+NAME = r"^[A-Za-z0-9_.-]+$"
+"""What a scene may be called, as folders are named after it."""
+NAME_SAYS = "letters from a to z, digits, '_', '.' and '-' only"
+
 
 def message(
     error: ValidationError,
@@ -44,7 +48,8 @@ def message(
         place = [part for part in _place(item["loc"]) if part not in classes]
         key = ".".join(str(part) for part in written(place, origins)) or "scene"
         reason = item["msg"].removeprefix("Value error, ").replace("Input should be", "must be")
-        reason = reason.replace("String should match", "must match")
+        if item.get("ctx", {}).get("pattern") == NAME:
+            reason = NAME_SAYS
         if item["type"] in ("extra_forbidden", "unexpected_keyword_argument"):
             lines.append(f"{source}: {key}: {_unknown(item['loc'], _schema(model))}")
         elif item["type"] == "missing":

@@ -31,7 +31,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime import Lifetime, check_counts
 from loadflow.scene.loads import Loads, check_simulation
-from loadflow.scene.messages import beside_bearings, message
+from loadflow.scene.messages import NAME, beside_bearings, message
 from loadflow.scene.own_shaft import taken
 from loadflow.scene.places import places_of
 from loadflow.scene.results import BY_NAME as BY_NAME
@@ -95,7 +95,7 @@ class Scene(Section, WithFittingBeams, BaseModel):
     (2, 0.02, True)
     """
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$")]
+    name: Annotated[str, Field(pattern=NAME)]
     results: Annotated[list[Result], Field(min_length=1)] = list(USUAL)
     accuracy: Share | dict[Result, Share] | Literal["given"] = 0.05
     turbine: Turbine = Turbine()

@@ -10,6 +10,7 @@ from pathlib import Path
 import loadflow
 from loadflow.errors import InputError
 from loadflow.numerics.fields import none_such
+from loadflow.scene.messages import NAME, NAME_SAYS
 
 
 def _folder() -> Traversable:
@@ -44,8 +45,8 @@ def template_text(template: str, name: str) -> str:
     known = templates()
     if template not in known:
         raise InputError(none_such("scene", [template], known))
-    if not re.fullmatch(r"[A-Za-z0-9_.-]+", name):
-        raise InputError(f"name = {name!r}: letters, digits, '_', '.' and '-' only")
+    if not re.fullmatch(NAME, name):
+        raise InputError(f"name = {name!r}: {NAME_SAYS}")
     text = _folder().joinpath(f"{template}.toml").read_text(encoding="utf-8")
     return re.sub(r'(?m)^name = ".*"$', f'name = "{name}"', text, count=1)
 

@@ -13,6 +13,7 @@ from loadflow.scene.bearings import FurtherBearing, Ring
 from loadflow.scene.candidates import candidates_of, machine
 from loadflow.scene.cooling import Cooling
 from loadflow.scene.dynamics import OF_ROLLING, turning
+from loadflow.scene.places import GEOMETRIES
 from loadflow.scene.scene import Scene
 from loadflow.scene.section import keys_of
 
@@ -131,6 +132,16 @@ _OF_CLEARANCE = ("temperature", "cooling", "ambient_temperature")
 """Keys of friction that the clearance of a mounted bearing reads."""
 
 
+_COMPARED = "; it counts for those that `loadflow compare` takes by itself"
+
+
+def _has_sized(scene: Scene, place: str) -> bool:
+    """Whether a comparison without candidates of the scene has a rolling bearing at a place."""
+    taken = {} if scene.candidates else candidates_of(scene.turbine.name)
+    parts = [one.get(place, {}) for one in taken.values()]
+    return any(isinstance(part, dict) and part.get("kind") in GEOMETRIES for part in parts)
+
+
 def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield the keys of friction that the rest of a scene leaves without effect, and why."""
     friction, bearings = scene.friction, scene.rolling.geometries.values()
@@ -145,7 +156,13 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     for place in friction.cooling:
         parts = [part for part in every_rolling(scene) if part.bearing == place]
         if not parts:
-            yield f"cooling.{place}", "no rolling bearing stands there, of a candidate neither"
+            yield (
+                f"cooling.{place}",
+                (
+                    "no rolling bearing of the scene stands there, nor of its candidates"
+                    + (_COMPARED if _has_sized(scene, place) else "")
+                ),
+            )
         elif "rolling.friction" not in scene.results and not (
             any(friction.states(part) or part.balances_heat for part in parts)
         ):

@@ -255,6 +255,11 @@ def _crossing(reserve: Callable[[float], float]) -> float:
     return math.exp(max(x for x, left in seen.items() if left >= 0 and x <= root))
 
 
+def life_factor(hours: Callable[[float], float], limit: float) -> float:
+    """Largest factor on the load with which a life reaches its limit."""
+    return _crossing(lambda f: min(math.log(hours(f) / limit), _NONE))  # no load wears nothing
+
+
 def oil_told(bearing: Journal | AnyAxial, factor: float = 1.0) -> str:
     """In words, the oil of a film, or one so many times as thick."""
     where = "" if bearing.film_model.heat is None else " as it enters"

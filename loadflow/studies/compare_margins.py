@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
+from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life, system_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
@@ -29,7 +29,7 @@ from loadflow.studies.compare_factor import (
     film_extremes,
     film_margin,
     grown,
-    largest_factor,
+    life_factor,
     reduced_samples,
     series_of,
 )
@@ -95,8 +95,7 @@ def margin_of(scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Ver
         for place in scene.thrust.bearings:
             found += pad_margins(scene, folder, place, table.sel(bearing=place))
     if "rolling" in tables:
-        for place in scene.rolling.geometries:
-            found += _rolling_margins(scene, folder, place, tables, verdicts)
+        found += _rolling_margins(scene, folder, tables, verdicts)
     known = sorted((one for one in found if math.isfinite(one.factor)), key=lambda one: one.factor)
     uncounted = "; ".join(one.uncounted for one in found if one.uncounted)
     if not known:
@@ -171,45 +170,113 @@ def _film_value(options: Journal, sample: xr.Dataset, field: str, load: float, o
 # --- rolling bearings -----------------------------------------------------------------------------
 
 
-def _rolling_margins(
-    scene: Scene, folder: Path, place: str, tables: Tables, verdicts: Sequence[Verdict]
-) -> Iterator[Margin]:
-    """Margins of static rating, rating life and modified life of one rolling bearing.
+@dataclass(frozen=True)
+class _Life:
+    """How a life of one bearing follows the load, and what takes it in the run.
 
-    The oil of the modified life is as warm as in each load case of the run; by a heat balance it
-    is warmer the larger the loads are.
+    `hours` has a factor on the loads; `damage` is that of each case in an hour.
     """
-    limits = scene.rolling.bearings[place].limits
-    own = {v.quantity: v for v in verdicts if v.subject == f"rolling {place}"}
-    table = tables["rolling"].sel(bearing=place)
+
+    place: str
+    hours: Callable[[float], float]
+    limit: float
+    damage: xr.DataArray
+    factor: float
+    power: float
+    change: str = ""
+
+
+def _rolling_margins(
+    scene: Scene, folder: Path, tables: Tables, verdicts: Sequence[Verdict]
+) -> Iterator[Margin]:
+    """Margins of the static ratings, rating and modified lives of all rolling bearings.
+
+    Lives are those of each bearing and, as the verdicts hold it, that of all as a system.
+    """
+    table = tables["rolling"]
     share = known_shares(tables, table)
     share = np.ones(table.sizes["case"]) if share is None else np.nan_to_num(share)
-    static = own.get("static rating over the design load")
-    if static is not None and math.isfinite(static.value):
-        what = f"static rating of {place}"
-        factor = static.value / limits.static_safety
-        drawn = of_extreme(table["bearing_design_safety"], np.nanmin, factor, -1.0)
+    of_all = {v.quantity: v.limit for v in verdicts if v.subject == "rolling, all as a system"}
+    own = {(v.subject.removeprefix("rolling "), v.quantity): v for v in verdicts}
+    places = [*scene.rolling.geometries]
+    for place in places:
+        static = own.get((place, "static rating over the design load"))
+        if static is None or not math.isfinite(static.value):
+            continue
+        factor = static.value / scene.rolling.bearings[place].limits.static_safety
+        safety = table["bearing_design_safety"].sel(bearing=place)
         yield Margin(
-            factor, place, static.case, what, drawn=drawn, time=static.time,
+            factor, place, static.case, f"static rating of {place}",
+            drawn=of_extreme(safety, np.nanmin, factor, -1.0), time=static.time,
             models=("rolling.loads", "maximum force"), power=-1.0,
         )  # fmt: skip
-    bearing = scene.rolling.geometries[place]
-    basic = own.get("rating life L10h")
-    if basic is not None and math.isfinite(basic.value):
-        factor = (basic.value / limits.life) ** (1 / bearing.life_exponent)
-        damage = damage_per_hour(table, "")
-        drawn = of_life(damage, share, factor, bearing.life_exponent)
-        case, most = _most_damage(damage, share)
-        governs, power = f"rating life of {place}{most}", -bearing.life_exponent
-        yield Margin(factor, place, case, governs, drawn=drawn, models=_LIFE, power=power)
-    modified = own.get("modified rating life L10mh")
-    if modified is None or not math.isfinite(modified.value):
-        return
+    for what, quantity, models, life_of in (
+        ("rating life", "rating life L10h", _LIFE, _rating),
+        ("modified life", "modified rating life L10mh", _MODIFIED, _modified),
+    ):
+        stated = {place: own.get((place, quantity)) for place in places}
+        known = {place: v.value for place, v in stated.items() if v and math.isfinite(v.value)}
+        lives = [life_of(scene, folder, place, tables, hours) for place, hours in known.items()]
+        for one in lives:
+            yield _life_margin(one, f"{what} of {one.place}", one.damage, share, models)
+        if len(lives) > 1 and quantity in of_all:
+            slope = float(table.attrs["weibull_slope"])
+            together = _together(lives, of_all[quantity], share, slope)
+            whose = f"{what} of all bearings, most of {together.place}"
+            damage = xr.concat([one.damage.drop_vars("bearing") for one in lives], "bearing")
+            yield _life_margin(together, whose, damage, share, models, slope)
+
+
+def _life_margin(
+    one: _Life,
+    governs: str,
+    damage: xr.DataArray,
+    share: np.ndarray,
+    models: tuple[str, str],
+    slope: float = 1.0,
+) -> Margin:
+    """Margin of a life of one bearing, or by the `damage` of several that of all together."""
+    case, most = _most_damage(one.damage, share)
+    return Margin(
+        one.factor, one.place, case, f"{governs}{most}", one.change,
+        of_life(damage, share, one.factor, one.power, slope), models=models, power=-one.power,
+    )  # fmt: skip
+
+
+def _together(lives: Sequence[_Life], limit: float, share: np.ndarray, slope: float) -> _Life:
+    """The life of all bearings as a system, at the place that takes most of it."""
+
+    def hours(factor: float) -> float:
+        return float(system_life(np.array([one.hours(factor) for one in lives]), slope))
+
+    worst = max(lives, key=lambda one: float((np.nan_to_num(one.damage.values) * share).sum()))
+    factor = life_factor(hours, limit)
+    power = -power_of_load(hours, factor, WIDEST)
+    return replace(worst, hours=hours, limit=limit, factor=factor, power=power, change="")
+
+
+def _rating(scene: Scene, folder: Path, place: str, tables: Tables, found: float) -> _Life:
+    """Rating life, which is `found` in the run, h: a power of the load."""
+    power = scene.rolling.geometries[place].life_exponent
+    limit = scene.rolling.bearings[place].limits.life
+    damage = damage_per_hour(tables["rolling"].sel(bearing=place), "")
+    factor = (found / limit) ** (1 / power)
+    return _Life(place, lambda f: float(found * f**-power), limit, damage, factor, power)
+
+
+def _modified(scene: Scene, folder: Path, place: str, tables: Tables, found: float) -> _Life:
+    """Modified life, which is `found` in the run, h, with a_ISO of each sample anew.
+
+    The oil is as warm as in each load case of the run; by a heat balance it is warmer the larger
+    the loads are.
+    """
+    bearing, limit = scene.rolling.geometries[place], scene.rolling.bearings[place].limits.life
     spectrum = _spectrum(scene, folder, place, tables)
     grease = lubrication(scene.friction)
     every = tables["rolling"]
     warmth = warmth_of(scene, place, every, looked_at(folder, place, every))
 
+    @cache
     def life(factor: float, warmer: float = 0.0) -> float:
         turns = damage = 0.0
         for case, load, speed, weight in spectrum:
@@ -219,19 +286,15 @@ def _rolling_margins(
             damage += own / modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
         return turns / damage if damage else math.inf
 
-    allowed = limits.life / modified.value * life(1.0)
-    factor = largest_factor(lambda f: life(f) >= allowed)
+    allowed = limit / found * life(1.0)
+    factor = life_factor(life, allowed)
     warmer = np.linspace(0.0, _WARMER, 13)
-    lives = [life(1.0, more) for more in warmer]
-    short = np.flatnonzero(np.array(lives) < allowed)
+    short = np.flatnonzero(np.array([life(1.0, float(more)) for more in warmer]) < allowed)
     change = f"{place}: oil {warmer[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     power = -power_of_load(life, factor, WIDEST)
-    damage = damage_per_hour(table, "modified_")
-    case, most = _most_damage(damage, share)
-    yield Margin(
-        factor, place, case, f"modified life of {place}{most}", change,
-        of_life(damage, share, factor, power), models=_MODIFIED, power=-power,
-    )  # fmt: skip
+    damage = damage_per_hour(every.sel(bearing=place), "modified_")
+    whole = life(1.0)
+    return _Life(place, lambda f: found * life(f) / whole, limit, damage, factor, power, change)
 
 
 def _most_damage(damage: xr.DataArray, share: np.ndarray) -> tuple[str, str]:

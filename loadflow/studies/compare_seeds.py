@@ -8,6 +8,8 @@ from collections.abc import Callable
 import numpy as np
 import xarray as xr
 
+from loadflow.studies.seed_intervals import joint_life
+
 Draw = Callable[[np.ndarray], float]
 """From numbers of cases, some of them several times, to a factor on the loads."""
 
@@ -56,8 +58,12 @@ def of_extreme(
     return drawn
 
 
-def of_life(damage: xr.DataArray, share: np.ndarray, factor: float, power: float) -> Draw:
+def of_life(
+    damage: xr.DataArray, share: np.ndarray, factor: float, power: float, slope: float = 1.0
+) -> Draw:
     """Factors where the `damage` of each case in an hour follows the load by a power.
+
+    Damage of several bearings is that of all as a system, by their Weibull slope.
 
     Examples
     --------
@@ -66,15 +72,12 @@ def of_life(damage: xr.DataArray, share: np.ndarray, factor: float, power: float
     >>> round(drawn(np.array([0, 0])) / drawn(np.array([1, 1])), 3)
     2.0
     """
-    found = np.nan_to_num(damage.values.astype(float))
-
-    def mean(some: np.ndarray) -> float:
-        return float((found[some] * share[some]).sum() / share[some].sum())
-
-    whole = mean(np.arange(found.size))
+    found = np.nan_to_num(damage.transpose("case", ...).values.astype(float))
+    found = found.reshape(damage.sizes["case"], -1)
+    whole = joint_life(found, share, slope)
 
     def drawn(some: np.ndarray) -> float:
-        own = mean(some)
-        return factor * (whole / own) ** (1.0 / power) if own > 0 and power else math.nan
+        own = joint_life(found[some], share[some], slope)
+        return factor * (own / whole) ** (1.0 / power) if math.isfinite(own) and power else math.nan
 
     return drawn

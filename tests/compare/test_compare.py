@@ -29,6 +29,7 @@ from loadflow.quantities import percent, three_digits
 from loadflow.report.compare_page import _row, short, write_comparison
 from loadflow.report.moments import Moment, moment_chart
 from loadflow.report.sketch import sketch
+from loadflow.rolling import system_life
 from loadflow.running import kept_numbers
 from loadflow.running.candidates import candidate_scene, candidates_for
 from loadflow.running.comparison import (
@@ -322,6 +323,22 @@ def test_a_margin_of_a_life_names_the_load_case_that_takes_most_of_it(found):
     share = tables["lifetime"]["share"].reindex(case=damage["case"])
     assert margin.case == str((damage * share).idxmax("case").values)
     assert margin.governs.startswith("rating life of M (")
+
+
+def test_the_margin_of_lives_is_that_of_all_bearings_as_a_system(found):
+    folder = found.path / by_name(found)["two-spherical"].folder
+    result, scene = open_cube(folder / "result.h5"), read_scene(folder / "scene.toml")
+    tables = {group: result[group].to_dataset() for group in ("rolling", "lifetime")}
+    limit, lives, what = 175320.0, {"N": 1e6, "N2": 2e6}, "rating life L10h"
+    own = [Verdict(f"rolling {at}", what, life, limit, "at least") for at, life in lives.items()]
+    both = float(system_life([*lives.values()]))
+    joint = Verdict("rolling, all as a system", what, both, limit, "at least")
+    alone = margin_of(scene, folder, tables, own)
+    margin = margin_of(scene, folder, tables, [*own, joint])
+    assert alone.factor == pytest.approx((1e6 / limit) ** 0.3)
+    assert margin.factor == pytest.approx((both / limit) ** 0.3, rel=2e-3)  # as it is sought
+    assert margin.governs.startswith("rating life of all bearings, most of ")
+    assert margin.low <= margin.factor <= margin.high
 
 
 def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_reason(found):

@@ -285,3 +285,13 @@ def test_a_bearing_that_swings_has_the_temperature_that_is_stated_for_it(tmp_pat
     unused = unused_keys(scene)
     assert "friction.cooling.N2" in unused
     assert "friction.cooling.N" not in unused
+
+
+def test_a_cooling_of_sized_candidates_alone_is_said_to_count_for_the_comparison():
+    shaft = {"two_point": {}, "moment": {}}
+    scene = {"name": "a", "shaft": shaft, "bearings": ["journal-cylindrical", "tapered-pair"]}
+    scene |= {"friction": {"cooling": COOLING}, "results": ["rolling.friction"]}
+    told = unused_keys(make_scene(scene))
+    assert told["friction.cooling.N"].endswith("those that `loadflow compare` takes by itself")
+    own = make_scene(scene | {"candidates": {"journal-lemon": {}}})
+    assert unused_keys(own)["friction.cooling.N"].endswith("nor of its candidates")

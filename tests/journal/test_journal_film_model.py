@@ -62,6 +62,15 @@ def test_a_control_is_what_its_keywords_say():
         ({"film": OIL, "heat": Heat()}, "lubricant: not given with heat"),
         ({"film": FILM, "control": Control(), "strict": False}, "strict: not given with control"),
         ({"film": OIL, "contact": "rough"}, "contact = 'rough' is not allowed: a Contact, or None"),
+        (
+            {"film": OIL, "cavitation": "guembel"},
+            "cavitation = 'guembel' is .*: a law of cavitation",
+        ),
+        ({"film": OIL, "shell": 0.1}, "shell = 0.1 is not allowed: a shell, such as ThickShell"),
+        ({"film": OIL, "supply": 1e5}, "supply = 100000.0 is not allowed: a Supply, or None"),
+        ({"film": None, "heat": 313.15}, "heat = 313.15 is not allowed: a Heat, FilmHeat"),
+        ({"film": OIL, "grid": 60}, r"grid = 60 is not allowed: cells .* such as \(60, 20\)"),
+        ({"film": OIL, "inlet": "auto", "rung": "reduced"}, "'auto'; inlet = None leaves it out"),
         ({"film": 0.05}, r"lubricant = 0.05 is not allowed: a Lubricant, such as Lubricant\(visc"),
         ({"film": FILM, "weights": [1.0]}, "weights = .* without heat"),
     ],
@@ -69,6 +78,11 @@ def test_a_control_is_what_its_keywords_say():
 def test_what_is_said_twice_or_not_at_all_is_refused(words, message):
     with pytest.raises(InputError, match=message):
         BEARING.equilibrium(LOAD, 100.0, **words)
+
+
+def test_a_bearing_in_mm_is_refused():
+    with pytest.raises(InputError, match="diameter = 1400 is not allowed: 0 … 100, in m"):
+        JournalBearing(diameter=1400, width=1300, relative_clearance=1e-3)
 
 
 def test_a_word_that_is_none_is_a_type_error():

@@ -164,3 +164,9 @@ def test_a_channel_that_a_user_names_must_be_there(tmp_path):
     path = put(tmp_path / "a.outb", steady())
     with pytest.raises(InputError, match="channel 'Pitch7' for 'pitch' is missing"):
         read_openfast(path, channels={"pitch": "Pitch7"})
+
+
+def test_a_format_that_says_its_time_lets_no_channel_say_it(tmp_path):
+    write_outb(tmp_path / "a.outb", channels(n=20))
+    with pytest.raises(InputError, match="say the time themselves"):
+        read_openfast(tmp_path / "a.outb", channels={"time": "Time"})

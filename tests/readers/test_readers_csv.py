@@ -115,3 +115,45 @@ def test_empty_file_binary_file_and_missing_file(tmp_path):
     path.write_bytes(bytes(range(256)))
     with pytest.raises(InputError, match=r"bad\.csv"):
         read_csv(path)
+
+
+OWN = {
+    "time": "Zeit",
+    "speed": "Drehzahl",
+    "hub_force_x": "Fx",
+    "hub_force_y": "Fy",
+    "hub_force_z": "Fz",
+    "hub_moment_x": "Mx",
+    "hub_moment_y": "My",
+    "hub_moment_z": "Mz",
+}
+
+
+def own_names():
+    names = dict(zip(OWN, HEADING[:2] + HEADING[3:]))
+    return {column: f"{OWN[key]} [{column.partition('[')[2]}" for key, column in names.items()}
+
+
+def test_the_column_of_the_time_may_be_named_otherwise(tmp_path):
+    path = tmp_path / "a.csv"
+    values = write(path, heading=[own_names().get(one, one) for one in HEADING])
+    series = read_csv(path, channels=OWN)
+    assert float(series.time[-1]) == pytest.approx(values[-1, 0])
+    np.testing.assert_allclose(series.hub_force.sel(axis="x"), 1e3 * values[:, 3], rtol=1e-6)
+    with pytest.raises(InputError, match=r"column 'time' is missing; the file has Zeit.*time ="):
+        read_csv(path, channels={key: name for key, name in OWN.items() if key != "time"})
+    with pytest.raises(InputError, match="column 'Zeti' is missing"):
+        read_csv(path, channels=OWN | {"time": "Zeti"})
+
+
+def test_time_may_begin_with_a_capital_letter(tmp_path):
+    path = tmp_path / "a.csv"
+    write(path, heading=["Time [s]", *HEADING[1:]])
+    assert is_series(path)
+    assert read_csv(path).sizes["time"] == 50
+
+
+def test_a_folder_of_files_that_none_is_known_by_names_them(tmp_path):
+    write(tmp_path / "Lauf.csv", heading=[own_names().get(one, one) for one in HEADING])
+    with pytest.raises(InputError, match=r"no load file that is known as such; .*: Lauf\.csv"):
+        read_loads(tmp_path)

@@ -105,7 +105,7 @@ def test_loads_must_be_named(tmp_path):
     write(tmp_path / "run", binary=True)
     with pytest.raises(
         InputError,
-        match=r"6 channels are missing: one for 'hub_force_x' .* has Time.*Name the loads",
+        match=r"6 channels are missing: one for 'hub_force_x' .* has #1 Time, #2 .*Name the loads",
     ):
         read_hawc2(tmp_path / "run.sel")
 

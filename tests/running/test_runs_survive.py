@@ -28,7 +28,7 @@ from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.running.runner import run
 from loadflow.scene.changed import with_name
 from loadflow.scene.scene import Scene
-from loadflow.storage import check_name
+from loadflow.storage import check_name, written_whole
 
 HERE = Path(__file__).parent
 PART = Path("small/reduction/dlc1.1_v8_s1.h5")
@@ -293,6 +293,18 @@ def test_a_lock_is_free_again_after_an_error(tmp_path):
 
 
 # --- disks and folders -----------------------------------------------------------------------
+
+
+def test_a_file_that_a_full_disk_takes_no_more_of_is_named(tmp_path):
+    """Writers of HDF5 tell the error alone; what another file lacks keeps that file's name."""
+    full = OSError(28, "No space left on device")
+    told = r"No space left on device: '.*loads\.h5'"
+    with pytest.raises(OSError, match=told) as caught, written_whole(tmp_path / "loads.h5"):
+        raise full
+    assert caught.value.__cause__ is full
+    assert list(tmp_path.iterdir()) == []
+    with pytest.raises(OSError, match="'other'"), written_whole(tmp_path / "loads.h5"):
+        raise OSError(28, "No space left on device", "other")
 
 
 def test_a_full_disk_is_one_sentence_and_the_run_goes_on(finished, tmp_path, monkeypatch):

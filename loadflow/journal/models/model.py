@@ -107,6 +107,10 @@ class Model(Protocol):
         """Return the Dataset of `JournalBearing.orbit`."""
 
 
+_WITHOUT = {"inlet": "; inlet = None leaves it out"}
+"""What a default that a rung does not know is left out by."""
+
+
 def why_not(
     verb: Verb, film: Film, bearing: JournalGeometry, line: Line, steps: Steps | None = None
 ) -> str | None:
@@ -123,7 +127,7 @@ def why_not(
         if name not in known:
             return (
                 f"rung = {rung.name!r} is not allowed: {_having(verb, name)} for "
-                f"{FEATURES[name]}; {name} = {value!r}"
+                f"{FEATURES[name]}; {name} = {value!r}{_WITHOUT.get(name, '')}"
             )
     for name, value, apart, allowed in _pairs(verb, film, bearing, line, steps or Steps()):
         if value is not None and apart:
