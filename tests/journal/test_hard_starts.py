@@ -31,6 +31,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
+from loadflow.journal.questions import AtRest
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.effort import Effort
@@ -572,7 +573,7 @@ def test_of_loads_with_one_effort_few_are_sought_where_none_is_found(
     bearing, film = JournalBearing(0.2, 0.1, 1e-3), Film(Lubricant(0.03), grid=(24, 8))
     loads, line = np.tile([1e4, 0.0], (8, 1)), Line(searches=every)
     control = Limits(1e-10, 60, strict=False)
-    rows = equilibrium_rows(bearing, film, loads, np.full(8, 30.0), line, control)
+    rows = equilibrium_rows(AtRest(bearing, film, loads, np.full(8, 30.0), line, control))
     assert len(tried) == asked
     assert len(rows) == 8
     assert not any(row["converged"] for row in rows)
