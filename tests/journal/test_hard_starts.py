@@ -310,7 +310,7 @@ def test_a_series_too_hot_for_any_balance_says_so_after_few_loads(monkeypatch):
     asked = asked_of_the_grid(monkeypatch)
     with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K; the mean friction"):
         drawn("composed", 194)[1]()
-    assert sum(len(arguments[2]) for arguments in asked) <= 3 * FEW
+    assert sum(arguments[0].speed.size for arguments in asked) <= 3 * FEW
 
 
 def test_a_series_without_a_film_says_why_its_mildest_load_has_none():
@@ -515,7 +515,7 @@ def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
     asked: list[tuple[int, int]] = []
     path = reduced._path
     monkeypatch.setattr(
-        reduced, "_path", lambda *given: asked.append(given[1].cells) or path(*given)
+        reduced, "_path", lambda *given: asked.append(given[0].film.cells) or path(*given)
     )
     with pytest.raises(SolverError, match=r"orbit cannot start: .* residual"):
         drawn("composed", 527)[1]()
