@@ -19,7 +19,8 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat, Growth, Heat, RingGrowth
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.models.model import Steps, Verb, why_not
+from loadflow.journal.models.model import Verb, why_not
+from loadflow.journal.questions import Steps
 from loadflow.journal.relief import Contour, Crown
 from loadflow.journal.shapes import Arc, Lobes, TiltingPads
 from loadflow.journal.shells import LocalShell, ThickShell

@@ -60,8 +60,9 @@ TENTH = 0.1
 class TenthFilm:
     """A model that finds every shaft at a tenth of the clearance, along its load."""
 
-    def equilibrium(self, bearing, film, force, speed, line, limits):
+    def equilibrium(self, asked):
         """Fields of `Equilibrium`."""
+        bearing, film, force, speed = asked.bearing, asked.film, asked.force, asked.speed
         position = TENTH * force / np.hypot(*force.T)[:, None]
         flat = np.ones(speed.size)
         drag = film.liquid.viscosity * speed**2 * bearing.radius**3 * bearing.width

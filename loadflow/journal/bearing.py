@@ -18,7 +18,8 @@ from loadflow.journal.heat import Entering
 from loadflow.journal.heat_results import FilmHeatEquilibrium, FilmHeatField
 from loadflow.journal.line import Line
 from loadflow.journal.lubricant import Lubricant
-from loadflow.journal.models.model import Steps, model_of
+from loadflow.journal.models.model import model_of
+from loadflow.journal.questions import AtPosition, AtRest, InMotion, Steps
 from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped, start_rows, starts_of
 from loadflow.journal.solvers.search import searches
@@ -145,12 +146,12 @@ class JournalBearing(JournalGeometry):
         if film.heat is None:
             require(weights is None, "weights", weights, "None without heat")
             warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
-            answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            answer = model.equilibrium(AtRest(self, film, loads, speeds, line, limits))
             warn_if_unresolved(answer)
             return Equilibrium(**shaped(answer, shape))
         if film.heat.over_area:
             require(weights is None, "weights", weights, "None with heat over the area")
-            answer = model.equilibrium(self, film, loads, speeds, line, limits)
+            answer = model.equilibrium(AtRest(self, film, loads, speeds, line, limits))
             thinnest = _hottest(film.heat, answer["maximum_temperature"])
             warn_if_turbulent(self, speeds, thinnest, film.turbulence)
             warn_if_unresolved(answer)
@@ -166,7 +167,7 @@ class JournalBearing(JournalGeometry):
             places: NDArray[np.int64],
             how: Limits = each,
         ) -> dict[str, Any]:
-            found = model.equilibrium(grown, cold, force, speed, line.at(places), how)
+            found = model.equilibrium(AtRest(grown, cold, force, speed, line.at(places), how))
             if starts is not None:  # a film that is a little warmer is near
                 starts[places] = start_rows(grown, found)
             return found
@@ -242,7 +243,8 @@ class JournalBearing(JournalGeometry):
         places, velocities = places / self.clearance, velocities / self.clearance
         line = Line.of(shape, tilt=tilt, bend=bend)
         model = model_of("at_position", film, self, line)
-        found, z = model.pressure(self, film, places, velocities, speeds, line, limits)
+        asked = AtPosition(self, film, places, velocities, speeds, line, limits)
+        found, z = model.pressure(asked)
         warn_if_unresolved(found)
         kind = FilmField if film.heat is None else FilmHeatField
         return kind(z=z, **shaped(found, shape))
@@ -364,7 +366,7 @@ class JournalBearing(JournalGeometry):
         follow = model.orbit
         if film.heat is not None and not film.heat.over_area:
             follow = partial(warm_orbit, model)
-        path = follow(self, film, times, loads, speeds, line, limits, steps)
+        path = follow(InMotion(self, film, times, loads, speeds, line, limits, steps))
         warn_if_path_unresolved(path)
         return path
 

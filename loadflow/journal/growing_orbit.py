@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import Steps
 from loadflow.journal.thermal import LEFT, clearance_at, grown_by
 from loadflow.numerics.convergence import EPS
 from loadflow.quantities import FILM, GRID_ERROR

@@ -23,7 +23,8 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.growing_orbit import growing_orbit
 from loadflow.journal.heat import HOTTEST, Heat
 from loadflow.journal.line import Line
-from loadflow.journal.models.model import Model, Steps
+from loadflow.journal.models.model import Model
+from loadflow.journal.questions import AtRest, InMotion, Steps
 from loadflow.journal.solvers.messages import MORE_STEPS
 from loadflow.journal.solvers.search import searches
 from loadflow.journal.thermal import at_temperatures, check_scalable, grown_by, warm_film
@@ -65,17 +66,7 @@ _SCALED = (
 )  # fmt: skip
 
 
-def warm_orbit(
-    model: Model,
-    bearing: JournalGeometry,
-    film: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def warm_orbit(model: Model, asked: InMotion) -> xr.Dataset:
     """Path of the shaft in a film with a heat balance, and its `temperature`.
 
     Raises
@@ -85,28 +76,28 @@ def warm_orbit(
     loadflow.errors.SolverError
         No heat balance of the series, a film that gets too hot, or what the model raises.
     """
+    bearing, film, time, steps = asked.bearing, asked.film, asked.time, asked.steps
     heat = cast("Heat", film.heat)  # the other kind is refused in motion
     check_scalable(film)
     start = heat.start_temperature
     if start is None or heat.capacity is None:
-        start = series_temperature(model, bearing, film, force, speed, line)
+        start = series_temperature(model, bearing, film, asked.force, asked.speed, asked.line)
     stays = film if heat.capacity is None else replace(film, heat=replace(heat, growth=None))
 
     def piece(grown: JournalGeometry, some: slice, warm: float, own: Steps) -> xr.Dataset:
         """Path over some samples in a bearing that stays as it is, from a temperature, K."""
-        times, loads, speeds = time[some], force[some], speed[some]
-        lies = line.at(np.arange(time.size)[some])
+        there = replace(asked.at(np.arange(time.size)[some]), bearing=grown, steps=own)
         held = replace(stays, lubricant=heat.lubricant(warm), heat=None)
 
         def path(times: Array, speeds: Array) -> xr.Dataset:
-            return model.orbit(grown, held, times, loads, speeds, lies, limits, own)
+            return model.orbit(replace(there, film=held, time=times, speed=speeds))
 
         if heat.capacity is None:
-            return _told(path(times, speeds), np.full(times.size, warm))
+            return _told(path(there.time, there.speed), np.full(there.time.size, warm))
         if getattr(model, "stores_heat", False):
             begins = replace(own, temperature=warm)
-            return model.orbit(grown, stays, times, loads, speeds, lies, limits, begins)
-        return _in_turns(path, heat, times, speeds, warm)
+            return model.orbit(replace(there, film=stays, steps=begins))
+        return _in_turns(path, heat, there.time, there.speed, warm)
 
     if heat.capacity is not None and heat.growth is not None:
         return growing_orbit(piece, bearing, heat, time.size, start, steps)
@@ -147,8 +138,8 @@ def series_temperature(
     def mean(
         some: NDArray[np.int64], limits: Limits, start: float | None = None, about: bool = False
     ) -> dict[str, Any]:
-        given = model, bearing, film, force[some], speed[some], again.at(some), limits
-        return _of_mean(*given, start, ABOUT if about else BALANCED)
+        asked = AtRest(bearing, film, force[some], speed[some], again.at(some), limits)
+        return _of_mean(model, asked, start, ABOUT if about else BALANCED)
 
     start, worth_asking = None, some.size <= 2 * FEW
     if not worth_asking:  # all of them are asked at few temperatures
@@ -170,10 +161,11 @@ def series_temperature(
     if not converged.any():
         _check_warmth(found)
         size = np.hypot(*force[some].T)
+        every = AtRest(bearing, film, force, speed, again, Limits(1e-10, 60))
         raise SolverError(
             "orbit cannot start: no heat balance of its mean friction and flow; at rest no film "
             f"carries its mildest loads, from {size.min():.4g} N on"
-            + _why_none(model, bearing, film, force, speed, again, int(some[size.argmin()]))
+            + _why_none(model, every.at(some[[size.argmin()]]))
         )
     if np.mean(converged) < 1.0 - LEFT_OUT:
         largest = np.hypot(*force[some][converged].T).max()
@@ -187,17 +179,7 @@ def series_temperature(
     return float(np.nanmax(found["temperature"]))
 
 
-def _of_mean(
-    model: Model,
-    bearing: JournalGeometry,
-    film: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    start: float | None,
-    tolerance: float,
-) -> dict[str, Any]:
+def _of_mean(model: Model, asked: AtRest, start: float | None, tolerance: float) -> dict[str, Any]:
     """Films at the temperature of their mean friction and flow, first tried at `start`, K."""
 
     def solve(
@@ -207,9 +189,14 @@ def _of_mean(
         speeds: Array,
         places: NDArray[np.int64],
     ) -> dict[str, Any]:
-        return model.equilibrium(grown, cold, forces, speeds, line.at(places), limits)
+        line = asked.line.at(places)
+        return model.equilibrium(AtRest(grown, cold, forces, speeds, line, asked.limits))
 
-    at_rest, shares = at_temperatures(solve, bearing, film), np.full(speed.size, 1 / speed.size)
+    film, force, speed = asked.film, asked.force, asked.speed
+    at_rest, shares = (
+        at_temperatures(solve, asked.bearing, film),
+        np.full(speed.size, 1 / speed.size),
+    )
     near = None if start is None else np.array([start])
     return warm_film(at_rest, force, speed, film, shares, tolerance, strict=False, start=near)
 
@@ -230,25 +217,16 @@ def _check_warmth(found: dict[str, Any], least: float = BALANCED) -> None:
         )
 
 
-def _why_none(
-    model: Model,
-    bearing: JournalGeometry,
-    film: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    index: int,
-) -> str:
-    """Why a load of the series has no film: as its search has told, or in the coldest oil."""
-    told = None if line.searches is None else line.searches[index].why
+def _why_none(model: Model, asked: AtRest) -> str:
+    """Why the one load has no film: as its search has told, or in the coldest oil."""
+    told = None if asked.line.searches is None else asked.line.searches[0].why
     if told is not None and MORE_STEPS not in told[1]:
         return f": {told[1]}"
-    line = replace(line, searches=None)
-    heat, one = cast("Heat", film.heat), np.array([index])
-    cold = replace(film.isothermal(), lubricant=heat.lubricant(heat.coldest))
-    grown = grown_by(bearing, heat, heat.coldest)
+    heat, afresh = cast("Heat", asked.film.heat), replace(asked.line, searches=None)
+    cold = replace(asked.film.isothermal(), lubricant=heat.lubricant(heat.coldest))
+    grown = grown_by(asked.bearing, heat, heat.coldest)
     try:
-        model.equilibrium(grown, cold, force[one], speed[one], line.at(one), Limits(1e-10, 60))
+        model.equilibrium(replace(asked, bearing=grown, film=cold, line=afresh))
     except SolverError as error:
         return f": {str(error).removeprefix('load 0: ')}"
     return ""

@@ -17,7 +17,8 @@ from pydantic import BaseModel, Field, ValidationError, field_validator, model_v
 
 from loadflow.errors import InputError
 from loadflow.journal.line import Line
-from loadflow.journal.models.model import Steps, why_not
+from loadflow.journal.models.model import why_not
+from loadflow.journal.questions import Steps
 from loadflow.numerics.fields import LARGEST, LARGEST_INTEGER
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.bearings import Rolling

@@ -5,20 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from loadflow.journal import FilmHeat, Heat
-from loadflow.journal.rungs import RUNGS
-from loadflow.journal.surfaces import Reversed
 from loadflow.rolling.friction import Churning
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.dynamics import OF_FILMS, OF_ROLLING, turning
-from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
-from loadflow.scene.places import OF_COLLARS, SHARED
 from loadflow.scene.results import USUAL
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.section import Section, idle_keys
-from loadflow.scene.shaft_place import seats_felt
+from loadflow.scene.unused_films import NO_START, of_journal, of_thrust
 from loadflow.scene.unused_rolling import every_rolling, mounted, of_each_rolling, of_friction
 from loadflow.turbines import load_turbine
 from loadflow.turbines.files import scaled_name
@@ -91,13 +86,13 @@ def _all(scene: Scene) -> Iterator[tuple[str, str]]:
         for keys, reason in idle_keys(getattr(scene, name), (name,)) if name not in silent else ():
             yield ".".join(map(str, keys)), reason
     yield from _of_shaft(scene)
-    yield from _of_thrust(scene) if "thrust" not in silent else ()
+    yield from of_thrust(scene) if "thrust" not in silent else ()
     yield from of_each_rolling(scene) if "rolling" not in silent else ()
     for section, rules in (
         ("environment", _of_environment),
         ("loads", _of_loads),
         ("reduction", _of_reduction),
-        ("journal", _of_journal),
+        ("journal", of_journal),
         ("friction", of_friction),
         ("dynamics", _of_dynamics),
         ("wear", _of_wear),
@@ -299,110 +294,6 @@ def _of_reduction(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "seed", f'pick = "{scene.reduction.pick}" draws nothing at random'
 
 
-def _of_journal(scene: Scene) -> Iterator[tuple[str, str]]:
-    journal = scene.journal
-    yield from _of_film(scene, journal)
-    for place in journal.own:
-        if place not in journal.bearings:
-            yield "own", f"bearings leaves {place} out"
-        for key, reason in _of_film(scene, journal.at(place)):
-            if key.split(".")[0] not in SHARED:
-                yield f"own.{place}.{key}", reason
-
-
-def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
-    """Keys of the journal bearing, or of one place."""
-    if journal.tilt and not any(_tilts(scene, name) for name in journal.bearings):
-        yield (
-            "tilt",
-            "the shaft is rigid and brings no moment; give its suspension a beam",
-        )
-    shaft = scene.shaft
-    held = any(seats_felt(shaft, scene.journal, concept) for concept in shaft.concepts)
-    if journal.tilt and not scene.journal.tilting and not held:
-        yield "tilt", "the bearings are self_aligning"
-    if journal.self_aligning:
-        yield "alignment", "the bearing is self_aligning"
-    bends = any(map(shaft.bends_at, scene.journal.bearings))
-    if not (scene.journal.tilt or held or (scene.asks and bends)):
-        for key in ("alignment", "self_aligning"):
-            if key == "self_aligning" and journal.seat is not None:  # plans count what it leaves
-                continue
-            yield key, "only a film with tilt knows it; set journal.tilt, with a beam as the shaft"
-    if "grading" not in RUNGS[journal.rung].at_rest:
-        yield "grading", f'rung "{journal.rung}" has no graded mesh'
-    if journal.inlet == "none" and journal.cavitation.kind not in ("reynolds", "guembel"):
-        yield "inlet", f"the law {journal.cavitation.kind} has no line of fresh oil of its own"
-    if journal.heat is None:
-        for key in ("limits.oil", "limits.oil_hours", "limits.temperature"):
-            yield key, "the temperature of the film is not computed; give journal.heat"
-    feels = any(support.stiffness == "journal" for support in scene.shaft.coupled.values())
-    read = feels or "journal.dynamics" in scene.results
-    if isinstance(journal.heat, FilmHeat) and journal.heat.stiffness != "frozen" and not read:
-        yield "heat.stiffness", "only journal.dynamics, or a shaft that feels its films, reads it"
-    if not journal.in_motion:
-        yield "step", "only a film in motion goes from step to step"
-    if isinstance(journal.heat, Heat) and not journal.in_motion:
-        for key in ("heat.capacity", "heat.start_temperature"):
-            yield key, "only a film in motion stores heat"
-    starts = {dlc for dlc in scene.loads.dlcs if stands_or_starts(dlc)}
-    if scene.loads.source == "simulate" and not starts:
-        yield "limits.start_time", _NO_START
-    if scene.loads.source == "simulate" and len(starts) == len(scene.loads.dlcs):
-        for key in ("contact_time", "eccentricity_ratio", "sommerfeld_range", "sommerfeld_peak",
-                    "waviness", "margin", "minimum_film"):  # fmt: skip
-            yield f"limits.{key}", "no load case of this scene is of power production"
-
-
-def _tilts(scene: Scene, bearing: str) -> bool:
-    moment = scene.shaft.moment
-    return scene.shaft.bends_at(bearing) or (moment is not None and bearing in moment.bearings)
-
-
-_NO_START = "no load case of this scene starts, stops or stands"
-
-
-def _of_thrust(scene: Scene) -> Iterator[tuple[str, str]]:
-    simulated = scene.loads.source == "simulate"
-    starts = any(map(stands_or_starts, scene.loads.dlcs))
-    for name in OF_COLLARS if not scene.thrust.collars else ():
-        if name in scene.thrust.changed:
-            yield f"thrust.{name}", "no bearing of this scene is a thrust collar"
-    if (
-        scene.thrust.tilt
-        and scene.thrust.collars
-        and not any(map(scene.shaft.bends_at, scene.thrust.collars))
-    ):
-        yield "thrust.tilt", "no shaft with a thrust collar is a beam"
-    collars = scene.thrust.collars.values()
-    if scene.thrust.tilt and collars and all(one.self_aligning for one in collars):
-        yield "thrust.tilt", "pads that are self_aligning follow the collar"
-    bends = any(map(scene.shaft.bends_at, scene.thrust.collars))
-    if not scene.thrust.tilt and not (scene.asks and bends):
-        for place, collar in scene.thrust.collars.items():
-            # plans count what a seat leaves
-            if not collar.self_aligning or collar.seat is not None:
-                continue
-            where = f"thrust.bearings.{place}.self_aligning"
-            yield where, "only films with tilt know it; set thrust.tilt, with a beam as the shaft"
-    for place, one in scene.thrust.bearings.items():
-        if simulated and not starts and one.limits.start_time is not None:
-            where = f"thrust.bearings.{place}.limits.start_time"
-            yield where, _NO_START
-        found = {"geometry": one.geometry, "back": one.back} if one.kind == "thrust" else {}
-        rows = {key: row for key, row in found.items() if row is not None}
-        cut = {key: r.pivot is None and isinstance(r.profile, Reversed) for key, r in rows.items()}
-        for key, row in rows.items():
-            where = f"thrust.bearings.{place}.{key}"
-            against = "is cut against the sense of rotation: the pads carry nothing"
-            if simulated and cut["geometry"]:
-                yield where, f"geometry.profile {against}, and touch under all thrust downwind"
-            elif simulated and cut[key]:
-                yield f"{where}.profile", f"it {against}"
-            if row.first_pad and not scene.thrust.tilt:
-                yield f"{where}.first_pad", "the collar stays aligned, so that all pads carry alike"
-
-
 def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
     """Numbers of events that no load case of simulated loads takes."""
     if scene.loads.source == "files":  # their load cases are known when they are read
@@ -410,7 +301,7 @@ def _of_wear(scene: Scene) -> Iterator[tuple[str, str]]:
     starts = set(filter(stands_or_starts, scene.loads.dlcs))
     counted, yearly = {*scene.wear.counts}, {*scene.lifetime.per_year}
     if not starts:
-        yield "events", _NO_START
+        yield "events", NO_START
     elif starts <= counted | yearly:
         told = {"wear.counts": starts & counted, "lifetime.per_year": starts & yearly - counted}
         by = " and ".join(key for key, cases in told.items() if cases)

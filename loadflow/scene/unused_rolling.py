@@ -144,7 +144,7 @@ def _has_sized(scene: Scene, place: str) -> bool:
 
 def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
     """Yield the keys of friction that the rest of a scene leaves without effect, and why."""
-    friction, bearings = scene.friction, scene.rolling.geometries.values()
+    friction = scene.friction
     films = OF_ROLLING in scene.results and scene.dynamics.contact_model == "film"
     if "rolling.friction" not in scene.results:
         vibrate = _OF_FILMS if films else ()
@@ -153,6 +153,14 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for key in type(friction).model_fields:
             if key not in (*vibrate, *rated, *warm):
                 yield key, "the result rolling.friction is not wanted"
+    yield from _of_cooling(scene, films)
+    if "rolling.friction" in scene.results:
+        yield from _of_rollers(scene)
+
+
+def _of_cooling(scene: Scene, films: bool) -> Iterator[tuple[str, str]]:
+    """Keys of how warm bearings are; their `films` may be read beside their friction."""
+    friction = scene.friction
     for place in friction.cooling:
         parts = [part for part in every_rolling(scene) if part.bearing == place]
         if not parts:
@@ -175,8 +183,11 @@ def of_friction(scene: Scene) -> Iterator[tuple[str, str]]:
         for part in scene.rolling.bearings.values()
     ):
         yield "temperature", "with a conductance each bearing has that of its heat balance"
-    if "rolling.friction" not in scene.results:
-        return
+
+
+def _of_rollers(scene: Scene) -> Iterator[tuple[str, str]]:
+    """Keys of rollers that are followed, and of those on ribs."""
+    friction, bearings = scene.friction, scene.rolling.geometries.values()
     if friction.follow_every > 1 and all(b.friction_model != "rollers" for b in bearings):
         yield "follow_every", "no bearing of this scene has rollers whose motion is followed"
     rollers = [b for b in bearings if b.friction_model == "rollers"]

@@ -263,37 +263,13 @@ def _control(
     source: Source, found: dict[str, Any], merged: Mapping[str, Any], assumed: list[str]
 ) -> None:
     """Control, drivetrain and supervision, generator side."""
-    control, drivetrain = found.setdefault("control", {}), found["drivetrain"]
-    gear = float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
+    control = found.setdefault("control", {})
+    gear = _gear_ratio(merged)
     radius, ratio = merged["rotor"].get("radius"), source.number("tip speed ratio")
-    rotor_speed = _rated_rotor_speed(source, radius)
-    lowest = source.number("lowest rotor speed") or None
-    power = merged.get("rated_power")
-    if rotor_speed is not None:
-        reference = rotor_speed * gear
-        rated = (1 - _SPEED_MARGIN) * reference
-        if lowest is None:
-            lowest = _LOWEST_SPEED * rotor_speed
-            assumed.append(f"control.region_15_start = {lowest * gear:.4g} rad/s: not in the file")
-        control |= {
-            "reference_speed": reference,
-            "rated_speed": rated,
-            "region_15_start": lowest * gear,
-            "region_2_start": _LOWEST_RANGE * lowest * gear,
-        }
-        if radius and ratio:
-            found["rated_wind_speed"] = rotor_speed * radius / ratio
-        mechanical = _mechanical(source, merged, reference, gear, assumed)
-        _put(control, "rated_mechanical_power", mechanical)
-        mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
-        torque = _largest_torque(source, power, rotor_speed, gear)
-        if torque is not None:
-            control["maximum_torque"] = torque / gear
-        elif mechanical is not None:
-            control["maximum_torque"] = _TORQUE_RESERVE * mechanical / rated
-        if mechanical is not None:
-            drivetrain["brake_torque"] = _BRAKE * mechanical / rated
-            assumed.append(f"drivetrain.brake_torque = {_BRAKE} × the rated torque")
+    rotor_speed, power = _rated_rotor_speed(source, radius), merged.get("rated_power")
+    _at_rated_speed(source, found, merged, rotor_speed, assumed)
+    if rotor_speed is not None and radius and ratio:
+        found["rated_wind_speed"] = rotor_speed * radius / ratio
     source.hints["control.maximum_torque"] = "follows from control.rated_mechanical_power"
     source.hints["rated_wind_speed"] = "from tip speed ratio, rated speed and radius"
     if "maximum_torque_rate" in control:
@@ -318,6 +294,46 @@ def _control(
         control["minimum_pitch"] = min((control["minimum_pitch"], *pitch))
     if _has(merged, "control.region_2_gain"):
         control.pop("optimal_tip_speed_ratio", None)
+
+
+def _gear_ratio(merged: Mapping[str, Any]) -> float:
+    return float(merged.get("drivetrain", {}).get("gear_ratio", 1.0))
+
+
+def _at_rated_speed(
+    source: Source,
+    found: dict[str, Any],
+    merged: Mapping[str, Any],
+    rotor_speed: float | None,
+    assumed: list[str],
+) -> None:
+    """Speeds, power and torques of the generator that follow from the rated speed of the rotor."""
+    lowest = source.number("lowest rotor speed") or None
+    if rotor_speed is None:
+        return
+    control, gear = found["control"], _gear_ratio(merged)
+    reference = rotor_speed * gear
+    rated = (1 - _SPEED_MARGIN) * reference
+    if lowest is None:
+        lowest = _LOWEST_SPEED * rotor_speed
+        assumed.append(f"control.region_15_start = {lowest * gear:.4g} rad/s: not in the file")
+    control |= {
+        "reference_speed": reference,
+        "rated_speed": rated,
+        "region_15_start": lowest * gear,
+        "region_2_start": _LOWEST_RANGE * lowest * gear,
+    }
+    mechanical = _mechanical(source, merged, reference, gear, assumed)
+    _put(control, "rated_mechanical_power", mechanical)
+    mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
+    torque = _largest_torque(source, merged.get("rated_power"), rotor_speed, gear)
+    if torque is not None:
+        control["maximum_torque"] = torque / gear
+    elif mechanical is not None:
+        control["maximum_torque"] = _TORQUE_RESERVE * mechanical / rated
+    if mechanical is not None:
+        found["drivetrain"]["brake_torque"] = _BRAKE * mechanical / rated
+        assumed.append(f"drivetrain.brake_torque = {_BRAKE} × the rated torque")
 
 
 def _mechanical(

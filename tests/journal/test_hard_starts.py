@@ -31,6 +31,7 @@ from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
+from loadflow.journal.questions import AtRest
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.effort import Effort
@@ -309,7 +310,7 @@ def test_a_series_too_hot_for_any_balance_says_so_after_few_loads(monkeypatch):
     asked = asked_of_the_grid(monkeypatch)
     with pytest.raises(SolverError, match=r"no heat balance below 423\.15 K; the mean friction"):
         drawn("composed", 194)[1]()
-    assert sum(len(arguments[2]) for arguments in asked) <= 3 * FEW
+    assert sum(arguments[0].speed.size for arguments in asked) <= 3 * FEW
 
 
 def test_a_series_without_a_film_says_why_its_mildest_load_has_none():
@@ -514,7 +515,7 @@ def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):
     asked: list[tuple[int, int]] = []
     path = reduced._path
     monkeypatch.setattr(
-        reduced, "_path", lambda *given: asked.append(given[1].cells) or path(*given)
+        reduced, "_path", lambda *given: asked.append(given[0].film.cells) or path(*given)
     )
     with pytest.raises(SolverError, match=r"orbit cannot start: .* residual"):
         drawn("composed", 527)[1]()
@@ -572,7 +573,7 @@ def test_of_loads_with_one_effort_few_are_sought_where_none_is_found(
     bearing, film = JournalBearing(0.2, 0.1, 1e-3), Film(Lubricant(0.03), grid=(24, 8))
     loads, line = np.tile([1e4, 0.0], (8, 1)), Line(searches=every)
     control = Limits(1e-10, 60, strict=False)
-    rows = equilibrium_rows(bearing, film, loads, np.full(8, 30.0), line, control)
+    rows = equilibrium_rows(AtRest(bearing, film, loads, np.full(8, 30.0), line, control))
     assert len(tried) == asked
     assert len(rows) == 8
     assert not any(row["converged"] for row in rows)

@@ -216,9 +216,10 @@ class _CarriesUpTo:
     def __init__(self, most: float, refined: float = 0.0) -> None:
         self.most, self.refined, self.asked = most, refined, []
 
-    def equilibrium(self, bearing, film, force, speed, line, limits):
-        self.asked.append((np.hypot(*force.T), limits.refine))
-        count, most = speed.size, self.refined if limits.refine else self.most
+    def equilibrium(self, asked):
+        force, speed, refine = asked.force, asked.speed, asked.limits.refine
+        self.asked.append((np.hypot(*force.T), refine))
+        count, most = speed.size, self.refined if refine else self.most
         return {
             "friction_power": 2e3 * speed**2, "side_flow": 1e-4 * speed,
             "supply_flow": np.zeros(count), "supply_power": np.zeros(count),
@@ -271,12 +272,13 @@ def test_loads_on_a_shaft_that_has_stopped_are_not_asked_for_their_heat():
 def test_all_loads_are_asked_where_a_few_of_them_hardly_miss_their_balance(monkeypatch):
     sizes = []
 
-    def of_mean(model, bearing, film, force, speed, line, limits, start, tolerance):
-        sizes.append(speed.size)
-        few = speed.size <= FEW
+    def of_mean(model, asked, start, tolerance):
+        count = asked.speed.size
+        sizes.append(count)
+        few = count <= FEW
         return {
-            "converged": np.full(speed.size, not few), "temperature": np.full(speed.size, 330.0),
-            "heat_residual": np.full(speed.size, 5.0 if few else 0.0),
+            "converged": np.full(count, not few), "temperature": np.full(count, 330.0),
+            "heat_residual": np.full(count, 5.0 if few else 0.0),
         }  # fmt: skip
 
     monkeypatch.setattr(warm_orbit, "_of_mean", of_mean)

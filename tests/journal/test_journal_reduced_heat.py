@@ -29,6 +29,7 @@ from loadflow.journal.line import Line
 from loadflow.journal.models import grid as grid_rung
 from loadflow.journal.models.composed_rest import films_at_rest
 from loadflow.journal.models.composed_uneven import EVEN, Thickness
+from loadflow.journal.questions import AtRest
 from loadflow.journal.solvers.warm import coupled
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact, ExponentialOil
@@ -224,9 +225,8 @@ def test_stiffness_is_the_slope_of_the_force_at_the_viscosity_of_the_film():
     options = replace(film(), heat=None, lubricant=Lubricant(0.03))
     step = np.array([10.0, -20.0])
     loads, speeds = LOAD + np.outer([0.0, 1.0, -1.0], step), np.full(3, SPEED)
-    films = films_at_rest(
-        BEARING, options, loads, speeds, Line(), Limits(1e-12, 60, True), 1, viscosity=uneven
-    )
+    asked = AtRest(BEARING, options, loads, speeds, Line(), Limits(1e-12, 60, True))
+    films = films_at_rest(asked, 1, viscosity=uneven)
     _, more, less = films.answer["eccentricity"]
     found = films.answer["stiffness"][0] @ (0.5 * (more - less))
     np.testing.assert_allclose(found, step, rtol=1e-5)

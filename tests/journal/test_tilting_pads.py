@@ -24,7 +24,7 @@ from loadflow.journal.film.pad_curve import pad_curve
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models.composed_path import Drive, march_of
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import Steps
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import no_film
 from loadflow.journal.solvers.pad_estimate import on_pads
@@ -208,7 +208,7 @@ def test_a_path_that_stops_on_pads_meets_these_as_they_are_tilted() -> None:
     film, count = replace(FILM, rung="reduced"), 3
     load, line = np.full((count, 2), (1e6, 0.0)), Line.of((count,))
     given = np.linspace(0.0, 0.1, count), load, np.full(count, SPEED), line, LIMITS
-    march = march_of(Drive(BEARING, film, *given), Steps())
+    march = march_of(Drive(BEARING, film, *given, Steps()))
 
     def told(x: float, tilts: float) -> str:
         march.rows[1, at.X] = x

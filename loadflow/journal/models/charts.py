@@ -10,22 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
+from loadflow.journal.questions import AtRest
 from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.messages import no_equilibrium
 from loadflow.numerics.fields import require
 from loadflow.tribology import film, film_tables
-
-if TYPE_CHECKING:
-    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -64,15 +60,7 @@ class Chart:
         ratio[number > numbers[-1]] = np.nan
         return ratio, np.interp(ratio, ratios, attitudes)
 
-    def equilibrium(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        force: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-    ) -> dict[str, Any]:
+    def equilibrium(self, asked: AtRest) -> dict[str, Any]:
         """Static equilibria from the chart.
 
         Raises
@@ -82,8 +70,8 @@ class Chart:
         SolverError
             A load at ω = 0 or beyond the chart; names the first such load.
         """
-        width_ratio = width_of(bearing, self.name)
-        viscosity = options.liquid.viscosity
+        bearing, liquid, force, speed = asked.bearing, asked.film.liquid, asked.force, asked.speed
+        width_ratio, viscosity = width_of(bearing, self.name), liquid.viscosity
         number = np.array(
             [
                 bearing.sommerfeld_number(*point, viscosity)
@@ -92,7 +80,7 @@ class Chart:
         )
         ratio, attitude = self.at_rest(width_ratio, number)
         found = np.isfinite(ratio)
-        if control.strict and not found.all():
+        if asked.limits.strict and not found.all():
             bad = int(np.flatnonzero(~found)[0])
             end = f"the chart ends there, at ε = {self.largest:.6g}"
             why = f"So = {number[bad]:.6g}: {end}"
@@ -106,11 +94,11 @@ class Chart:
         mean = np.hypot(*force.T) / (bearing.width * bearing.diameter)
         slip = 0.5 * speed[:, None] * np.stack([position[:, 1], -position[:, 0]], axis=-1)
         return {
-            **operating_columns(bearing, force, speed, options.liquid, position),
+            **operating_columns(bearing, force, speed, liquid, position),
             **without_supply(speed.size),
             "eccentricity_ratio": ratio,
             "minimum_film": bearing.clearance * (1 - ratio),
-            "maximum_pressure": options.edge_pressure + peak * mean,
+            "maximum_pressure": asked.film.edge_pressure + peak * mean,
             "friction_power": friction_power(bearing, viscosity, position, force, speed, slip),
             "side_flow": np.abs(speed)
             * bearing.diameter**3

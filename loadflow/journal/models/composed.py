@@ -21,9 +21,8 @@ from loadflow.journal.models.composed_model import (
     warn_unresolved,
 )
 from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
+from loadflow.journal.questions import AtRest
 from loadflow.numerics.convergence import Limits
-
-Array = NDArray[np.float64]
 
 _MOST_AROUND = 240  # cells around a shell that is pressed at one place, where its film is thin
 _MOST_RIGID = 480  # around asperities in a rigid bore: a film as thin as they are high ends sooner
@@ -37,9 +36,7 @@ def composes(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     return more or not line.straight or film.liquid.pressure_coefficient > 0.0
 
 
-def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
-) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
+def equilibrium(asked: AtRest) -> tuple[dict[str, Any], NDArray[np.bool_], NDArray[np.bool_]]:
     """Fields of `Equilibrium`, which loads have an answer, and which surely have none.
 
     In a shell that gives way or on asperities a film too thin for the cells around, or not found on
@@ -50,15 +47,15 @@ def equilibrium(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the load.
     """
-    most = finer_around(options, control)
-    may_leave = most is not None and options.shell is not None
-    films = _on_cells(bearing, options, force, speed, line, control, may_leave)
+    options = asked.film
+    most = finer_around(options, asked.limits)
+    films = _on_cells(asked, may_leave=most is not None and options.shell is not None)
     answer, found, left, none = films.answer, films.found, films.left, films.none
     if most is not None:
         again = np.flatnonzero(films.thin | ~(found | none))
         if again.size:
             finer = replace(options, grid=(most, options.cells[1]))
-            more = _on_cells(bearing, finer, force[again], speed[again], line.at(again), control)
+            more = _on_cells(replace(asked.at(again), film=finer))
             _take(answer, again, more)
             left[again] = np.where(more.found, more.left, left[again])
             found[again] |= more.found
@@ -85,19 +82,11 @@ def finer_around(options: Film, control: Limits) -> int | None:
     return most if options.cells[0] < most else None
 
 
-def _on_cells(
-    bearing: JournalGeometry,
-    options: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    may_leave: bool = False,
-) -> RestingFilms:
+def _on_cells(asked: AtRest, may_leave: bool = False) -> RestingFilms:
     """Films on the cells around that are asked for, on as many points across as each asks for."""
-    films = films_at_rest(bearing, options, force, speed, line, control, 0, may_leave=may_leave)
+    films = films_at_rest(asked, 0, may_leave=may_leave)
     known = Known(films.films, films.model)
-    levels = levels_at_rest(options) if control.refine else LEVELS
+    levels = levels_at_rest(asked.film) if asked.limits.refine else LEVELS
     for level in levels[1:]:
         again = np.flatnonzero(films.found & films.left)
         if not again.size:
@@ -106,8 +95,7 @@ def _on_cells(
             {k: known.films[n] for k, n in enumerate(again.tolist()) if n in known.films},
             known.model,
         )
-        given = bearing, options, force[again], speed[again], line.at(again), control, level
-        more = films_at_rest(*given, begun)
+        more = films_at_rest(asked.at(again), level, begun)
         _take(films.answer, again, more)
         films.left[again] = more.left | ~more.found
         known = Known({int(again[k]): film for k, film in more.films.items()}, more.model)

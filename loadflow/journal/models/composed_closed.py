@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._pad_kernels import BEFORE, LAST
 from loadflow.journal.models.composed_model import contact_share, warn_unresolved
@@ -28,11 +26,11 @@ from loadflow.journal.models.composed_path import (
     march_of,
 )
 from loadflow.journal.models.composed_uneven import Thickness
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import InMotion
 from loadflow.journal.solvers.periodic import DEPTH, not_closed
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
-from loadflow.numerics.convergence import Limits, is_small, rounding_level
+from loadflow.numerics.convergence import is_small, rounding_level
 
 Array = NDArray[np.float64]
 
@@ -40,14 +38,7 @@ _FIRST = 2  # sample that is stepped to first: before it is the first time, and 
 
 
 def orbit(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
+    asked: InMotion,
     begin: Callable[[], Array],
     viscosity: Thickness | None = None,
     warm: Statics | None = None,
@@ -67,14 +58,12 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    count = time.size
+    time, force, count = asked.time, asked.force, asked.time.size
     past = np.append(0, np.arange(count))  # the first time has one before it
     times = time[past]
     times[0] -= time[-1] - time[-2]
-    given = bearing, options, times, force[past], speed[past], line.at(past), control
-    drive = Drive(*given, viscosity=viscosity, warm=warm)
-    march = march_of(drive, steps)
-    period = _Period(march, steps)
+    march = march_of(Drive.of(replace(asked.at(past), time=times), viscosity, warm))
+    period = _Period(march)
     for level in march.levels:
         if period.state is None:
             period.state = march.begins(level, begin)
@@ -91,7 +80,7 @@ def orbit(
         warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
     values = march.results() | {"x": march.rows[:, at.X], "y": march.rows[:, at.Y]}
     values = {name: rows[around] for name, rows in values.items()}
-    if options.contact is not None:
+    if asked.film.contact is not None:
         values["contact_share"] = contact_share(values["contact_force"], force)
     return values, {"closure": period.residual, "periods": period.number}
 
@@ -111,8 +100,8 @@ class _Period:
         Whether the last one has been, to its end.
     """
 
-    def __init__(self, march: March, steps: Steps) -> None:
-        self.march, self.steps = march, steps
+    def __init__(self, march: March) -> None:
+        self.march, self.steps = march, march.drive.steps
         self.state: State | None = None
         self.residual, self.number, self.whole = math.inf, 0, True
 
@@ -163,7 +152,7 @@ class _Period:
 
     def _parts(self, state: State) -> tuple[Array, Array]:
         """Shaft and pads, and the film over its scale, at the last two times, (2, …)."""
-        model, size = self.march.drive.film(state.level), self.march.model.size
+        model, size = self.march.drive.model(state.level), self.march.model.size
         moves = np.stack([state.place[:size], state.place_before[:size]])
         if state.tilts is not None:
             moves = np.hstack([moves, state.tilts[[LAST, BEFORE]]])
@@ -204,7 +193,7 @@ class _Period:
         size, inner = self.march.model.size, film.shape[2]
         places = [state.place.copy(), state.place_before.copy()]
         films = [state.last.copy(), state.before.copy()]
-        scale = self.march.drive.film(state.level).film.ring.scale
+        scale = self.march.drive.model(state.level).film.ring.scale
         for place, unknowns, moved, filled in zip(places, films, moves, film):
             place[:size], unknowns[:, :inner] = moved[:size], scale * filled
         tilts = None if state.tilts is None else state.tilts.copy()

@@ -18,16 +18,14 @@ from loadflow.errors import SolverError, ValidityWarning
 from loadflow.journal.film.gap_warm import WarmGap
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.temperatures import Warmth
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat
-from loadflow.journal.line import Line
 from loadflow.journal.models import grid
 from loadflow.journal.models.composed_heat_position import films_beside
 from loadflow.journal.models.composed_model import build, levels_at_rest, warn_unresolved
 from loadflow.journal.models.composed_rest import Known, RestingFilms, films_at_rest
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.strip_film import SHARP, Made, StripFilm, Tried, with_heat
+from loadflow.journal.questions import AtRest
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.orbit_start import orbit_film
@@ -39,7 +37,6 @@ from loadflow.journal.solvers.warm_rows import (
     in_grown_clearances,
     with_heat_bounds,
 )
-from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -47,44 +44,33 @@ Array = NDArray[np.float64]
 class _Around:
     """Loads on a reduced film with heat, and the films at the temperatures last tried."""
 
-    def __init__(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        force: Array,
-        speed: Array,
-        line: Line,
-        limits: Limits,
-    ) -> None:
+    def __init__(self, asked: AtRest) -> None:
         # what the cells do not resolve is told, not solved on others
-        self.options = replace(options.isothermal(), grading="uniform")
-        self.bearing, self.force, self.speed, self.line = bearing, force, speed, line
-        sharp = min(limits.tolerance, SHARP)
-        self.limits = replace(limits, tolerance=sharp, strict=False)
-        self.strict = limits.strict
+        bare = replace(asked.film.isothermal(), grading="uniform")
+        limits, self.strict = asked.limits, asked.limits.strict
+        sharp = replace(limits, tolerance=min(limits.tolerance, SHARP), strict=False)
+        self.asked, self.bearing = replace(asked, film=bare, limits=sharp), asked.bearing
         # the fewest points tell no narrow strips apart
-        self.levels = levels_at_rest(self.options)[1:]
-        given = self.bearing, self.options, self.speed, self.line, self.levels[0]
+        self.levels = levels_at_rest(bare)[1:]
+        given = asked.bearing, bare, asked.speed, asked.line, self.levels[0]
         self.known = dict[int, Known]()  # films of loads at temperatures tried before
-        self.heat = cast("FilmHeat", options.heat)
+        self.heat = cast("FilmHeat", asked.film.heat)
         self.equation = StripFilm(build(*given, at_rest=True), self.heat)
 
     def film(self, n: int, level: int) -> Tried[RestingFilms]:
         """Film of load `n` on the points of a level."""
         one, equation = np.array([n]), self.equation
         equation.require_gap()
-        films = films_at_rest(
-            self.bearing, self.options, self.force[one], self.speed[one], self.line.at(one),
-            self.limits, level, self.known.get(n), viscosity=equation.viscosity,
-        )  # fmt: skip
+        known, viscosity = self.known.get(n), equation.viscosity
+        films = films_at_rest(self.asked.at(one), level, known, viscosity=viscosity)
         if not films.found[0]:
             self.known.pop(n, None)
             return self.tried(films, None, level)
         at, tilt = films.answer["eccentricity"][0], films.answer["tilt"][0] * self.bearing.radius
         place = np.append(at, tilt) / self.bearing.clearance
         self.known[n] = Known({0: (films.model.work.last.copy(), place)}, films.model)
-        rubbed = float(films.answer["contact_power"][0]) if self.options.contact else 0.0
-        made = equation.made(films.model, float(self.speed[n]), rubbed)
+        rubbed = float(films.answer["contact_power"][0]) if self.asked.film.contact else 0.0
+        made = equation.made(films.model, float(self.asked.speed[n]), rubbed)
         return self.tried(films, made, level)
 
     def tried(self, films: RestingFilms, made: Made | None, level: int) -> Tried[RestingFilms]:
@@ -98,9 +84,7 @@ class _Around:
         return Tried(films, solution, made, found and bool(films.left[0]), level)
 
 
-def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
-) -> dict[str, Any]:
+def equilibrium(asked: AtRest) -> dict[str, Any]:
     """Fields of `FilmHeatEquilibrium`, (n, …), on the strips as cells across.
 
     Raises
@@ -113,18 +97,17 @@ def equilibrium(
     loadflow.errors.ValidityWarning
         Cells, or polynomials, that do not resolve a film; names the first load.
     """
-    around = _Around(bearing, options, force, speed, line, limits)
-    rows, count = [], speed.size
+    around, bearing = _Around(asked), asked.bearing
+    rows, count = [], asked.speed.size
     coarse, left = np.zeros(count, bool), np.zeros(count, bool)
     last: tuple[Solution, Warmth] | None = None
     for n in range(count):
         tried, found = _at_rest(around, n, last)
         if not found.converged and last is not None:
             tried, found = _at_rest(around, n, None)
-        if not found.converged and limits.strict:
-            one = np.array([n])
-            given = bearing, options, force[one], speed[one], line.at(one), limits
-            why = no_warmth(found) or grid.why_none(partial(grid.equilibrium, *given))
+        if not found.converged and around.strict:
+            one = asked.at(np.array([n]))
+            why = no_warmth(found) or grid.why_none(partial(grid.equilibrium, one))
             raise SolverError(f"load {n}: {why}")
         films, row = tried.film, _row(around, n, tried.film, found)
         rows.append(row)
@@ -156,8 +139,7 @@ def _at_rest(
     tried, found = with_heat(around.equation, around.levels, partial(around.film, n), last)
     if tried is None:  # grown into its shell in oil as it enters: a film without heat, told as none
         one, level = np.array([n]), around.levels[0]
-        load = around.force[one], around.speed[one], around.line.at(one)
-        films = films_at_rest(around.bearing, around.options, *load, around.limits, level)
+        films = films_at_rest(around.asked.at(one), level)
         tried = around.tried(films, None, level)
     return tried, found
 
@@ -170,10 +152,11 @@ def _settled(
     last: tuple[Solution, Warmth],
 ) -> Array:
     """Stiffness of load `n` at a `place` (4,), N/m, of a shaft whose temperatures follow it."""
-    films, bearing, line = tried.film, around.bearing, around.line.at(np.array([n]))
+    films, bearing, here = tried.film, around.bearing, around.asked.at(np.array([n]))
     least = float(films.answer["minimum_film"][0]) / bearing.clearance
+    speed, limits = float(here.speed[0]), here.limits
     film_at = films_beside(
-        films.model, line, around.equation, float(around.speed[n]), tried.level, last, around.limits
+        films.model, here.line, around.equation, speed, tried.level, last, limits
     )
     place = place[: 4 if films.model.whole else 2]
     return settled_stiffness(bearing, film_at, place, least, f"load {n}", around.strict)
@@ -185,7 +168,7 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     mean = heat.inlet_temperature if found.warmth is None else found.warmth.mean
     row = {name: values[0] for name, values in films.answer.items()}
     place = row["eccentricity"] / bearing.clearance
-    load = around.force[n], float(around.speed[n])
+    load = around.asked.force[n], float(around.asked.speed[n])
     operating = operating_columns(bearing, *load, heat.lubricant(mean), place)
     kept = "shell_deformation"
     warm = {name: value for name, value in operating.items() if name != kept}
@@ -197,9 +180,7 @@ def _row(around: _Around, n: int, films: RestingFilms, found: WarmFilm) -> dict[
     return row | {"converged": found.converged, "iterations": found.solution.iterations}
 
 
-def mean_around(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
-) -> tuple[MeanHeat, Thickness, Statics | None]:
+def mean_around(asked: AtRest) -> tuple[MeanHeat, Thickness, Statics | None]:
     """Temperatures of a series of loads, and the viscosity of its film.
 
     On pads that tilt, whose films at rest are of the grid, also the film there.
@@ -214,10 +195,10 @@ def mean_around(
     loadflow.errors.ValidityWarning
         Many of the loads have no film at rest.
     """
-    if bearing.has_pads:
-        return _mean_on_pads(bearing, options, force, speed, line, limits)
-    around = _Around(bearing, options, force, speed, line, limits)
-    level, equation, some = around.levels[0], around.equation, SeriesLoads.of(speed.size)
+    if asked.bearing.has_pads:
+        return _mean_on_pads(asked)
+    around = _Around(asked)
+    level, equation, some = around.levels[0], around.equation, SeriesLoads.of(asked.speed.size)
     made: list[Made] = []
 
     def film_of(before: Solution | None) -> Solution:
@@ -243,13 +224,12 @@ def mean_around(
     return in_balance(equation, film_of, heat_of, made, some), equation.viscosity, None
 
 
-def _mean_on_pads(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, limits: Limits
-) -> tuple[MeanHeat, Thickness, Statics]:
+def _mean_on_pads(asked: AtRest) -> tuple[MeanHeat, Thickness, Statics]:
     """The same by the films of the grid, on the columns of cells that lie alike on the pads."""
-    even = replace(options, grading="uniform")
+    even = replace(asked.film, grading="uniform")
+    bearing, force, speed, line = asked.bearing, asked.force, asked.speed, asked.line
     statics, _ = orbit_film(bearing, even, force, speed, line)
-    heat = mean_heat(statics, force, speed, limits)
+    heat = mean_heat(statics, force, speed, asked.limits)
     ring, mesh = build(bearing, even.isothermal(), speed, line).film.ring, statics.film.mesh
     angle = np.arctan2(ring.sin, ring.cos)
 

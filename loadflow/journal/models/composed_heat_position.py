@@ -17,8 +17,6 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.cell_error import warm_errors
 from loadflow.journal.film.linearised import Linear
 from loadflow.journal.film.temperatures import Warmth
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
@@ -32,6 +30,7 @@ from loadflow.journal.models.composed_model import (
 from loadflow.journal.models.composed_position import Held, Positions, places_across, told
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.strip_film import SHARP, StripFilm, Tried, with_heat
+from loadflow.journal.questions import AtPosition
 from loadflow.journal.rows import answered_rows, columns_of
 from loadflow.journal.solvers.newton import Solution
 from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
@@ -45,35 +44,24 @@ Array = NDArray[np.float64]
 class _AtPlaces:
     """Positions of a shaft in a reduced film with heat, and the films at the temperatures tried."""
 
-    def __init__(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        equation: StripFilm,
-        position: Array,
-        speed: Array,
-        line: Line,
-        limits: Limits,
-    ) -> None:
-        self.equation, self.count = equation, speed.size
-        given = bearing, options, position, np.zeros_like(position), speed, line, limits
-        self._given = given
+    def __init__(self, asked: AtPosition, equation: StripFilm) -> None:
+        self.asked, self.equation = asked, equation
         self._held = dict[int, Held]()  # films at temperatures tried before
         self.tried = dict[int, Positions]()  # what they are films of
 
     def film(self, n: int, level: int) -> Tried[Held]:
         """Film at position `n` on the points of a level."""
         self.equation.require_gap()
-        here = Positions(*self._given, viscosity=self.equation.viscosity)
+        here = Positions(self.asked, viscosity=self.equation.viscosity)
         self.tried[n] = here
-        model = here.model(here.options.cells[0], level, None)
+        model = here.model(self.asked.film.cells[0], level, None)
         held = here.on(n, model, self._held.get(n))
         row, made = held.row, None
         self._held.pop(n, None)
         if held.found:
             self._held[n] = held
-            speed, rubbed = float(here.speed[n]), 0.0
-            if here.options.contact is not None:
+            speed, rubbed = float(self.asked.speed[n]), 0.0
+            if self.asked.film.contact is not None:
                 said = model.results(row[None], np.array([speed]))
                 rubbed = float(said["contact_power"][0])
             made = self.equation.made(model, speed, rubbed)
@@ -90,15 +78,7 @@ class _AtPlaces:
         return with_heat(self.equation, levels, partial(self.film, n), last)
 
 
-def pressure(
-    bearing: JournalGeometry,
-    options: Film,
-    position: Array,
-    velocity: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-) -> tuple[dict[str, Any], Array]:
+def pressure(asked: AtPosition) -> tuple[dict[str, Any], Array]:
     """Fields of `FilmHeatField`, (n, …), and places of the points across, m, of films at positions.
 
     Temperatures are shown at the points across, straight between the strips that they are those of.
@@ -115,13 +95,16 @@ def pressure(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the position.
     """
-    require(not velocity.any(), "velocity", velocity.tolist(), "0 with heat over the area")
-    bare = replace(options.isothermal(), grading="uniform")
+    bearing, speed, line, limits = asked.bearing, asked.speed, asked.line, asked.limits
+    still = "0 with heat over the area"
+    require(not asked.velocity.any(), "velocity", asked.velocity.tolist(), still)
+    bare = replace(asked.film.isothermal(), grading="uniform")
     levels = levels_at_rest(bare)[1:]
-    heat = cast("FilmHeat", options.heat)
+    heat = cast("FilmHeat", asked.film.heat)
     each = replace(limits, tolerance=min(limits.tolerance, SHARP), strict=False)
     equation = StripFilm(build(bearing, bare, speed, line, levels[0], at_rest=True), heat)
-    places = _AtPlaces(bearing, bare, equation, position, speed, line, each)
+    cold = replace(asked, film=bare, limits=each)
+    places = _AtPlaces(cold, equation)
     films: list[tuple[Positions, Held]] = []
     rows: list[dict[str, Any]] = []
     left, wider = np.zeros(speed.size, bool), np.ones(speed.size)
@@ -131,13 +114,12 @@ def pressure(
         one = np.array([n])
         tried, found = places.found(n, levels, None)
         if not found.converged:
-            require_apart(bearing, options, position[n], float(speed[n]), line, n)
+            require_apart(bearing, asked.film, asked.position[n], float(speed[n]), line, n)
             if limits.strict:
-                at_place = position[one], velocity[one], speed[one], line.at(one), limits
-                on_grid = partial(grid.pressure, bearing, options, *at_place)
+                on_grid = partial(grid.pressure, asked.at(one))
                 raise SolverError(f"film {n}: {no_warmth(found) or grid.why_none(on_grid)}")
         if tried is None:  # grown into its shell in oil as it enters: a film without heat
-            own = Positions(bearing, bare, position, velocity, speed, line, each)
+            own = Positions(cold)
             films.append((own, own.on(n, own.model(bare.cells[0], levels[0], None), None)))
         else:
             films.append((places.tried[n], tried.film))
@@ -203,7 +185,8 @@ def films_beside(
         there = Line()
         if film.whole:
             there = Line(tilt=place[None, 2:] * bearing.relative_clearance, bend=line.bend)
-        given = bearing, film.options, equation, place[None, :2], rate, there, limits
-        return _AtPlaces(*given).found(0, [level], last)[1]
+        at, still = place[None, :2], np.zeros((1, 2))
+        asked = AtPosition(bearing, film.options, at, still, rate, there, limits)
+        return _AtPlaces(asked, equation).found(0, [level], last)[1]
 
     return film_at

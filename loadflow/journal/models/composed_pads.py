@@ -14,13 +14,11 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.gap_layout import Bore
 from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models.ring import Ring
+from loadflow.journal.questions import AtRest
 from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
 from loadflow.journal.solvers.statics import Statics
-from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -178,16 +176,9 @@ class FirstOnPads(NamedTuple):
 
 
 def first_on_pads(
-    bearing: JournalGeometry,
-    options: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    start: Array | None,
-    warm: Statics | None = None,
+    asked: AtRest, start: Array | None, warm: Statics | None = None
 ) -> tuple[FirstOnPads, ShapedGap]:
-    """First state of a path, that of the grid; and the gap of that.
+    """State of a path at the one load of its first time, that of the grid; and the gap of that.
 
     A film that is `warm` from place to place is given by its cells on the grid.
 
@@ -198,9 +189,10 @@ def first_on_pads(
     OrbitStopped
         No film to start from.
     """
-    statics = warm or orbit_film(bearing, options, force[:1], speed[:1], line)[0]
+    force, speed = asked.force, asked.speed
+    statics = warm or orbit_film(asked.bearing, asked.film, force, speed, asked.line)[0]
     gap = cast("ShapedGap", statics.gap)
-    first = orbit_start(statics, force[0], float(speed[0]), start, limits)
+    first = orbit_start(statics, force[0], float(speed[0]), start, asked.limits)
     place = np.zeros(4)
     place[: gap.shaft] = first.position[: gap.shaft]
     on = np.isin(gap.pads, np.arange(gap.size)[first.free])

@@ -16,9 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models._pad_kernels import LAST, NEXT
@@ -42,14 +39,13 @@ from loadflow.journal.models.composed_pads import (
     pads_of,
 )
 from loadflow.journal.models.composed_uneven import Thickness
-from loadflow.journal.models.model import Steps
 from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
+from loadflow.journal.questions import InMotion
 from loadflow.journal.solvers.load_stepping import TOUCHING
 from loadflow.journal.solvers.messages import touched
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped, stopped
-from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -80,23 +76,21 @@ class State(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Drive:
-    """What drives a path, its limits, and its films, one for each level that has been asked for.
+class Drive(InMotion):
+    """What drives a path, and its films, one for each level that has been asked for.
 
     `viscosity` is that of the cells where it is uneven, `warm` the same film on the grid where pads
     tilt.
     """
 
-    bearing: JournalGeometry
-    options: Film
-    time: Array
-    force: Array
-    speed: Array
-    line: Line
-    control: Limits
-    films: dict[int, ComposedFilm] = field(default_factory=dict)
     viscosity: Thickness | None = None
     warm: Statics | None = None
+    models: dict[int, ComposedFilm] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, asked: InMotion, viscosity: Thickness | None, warm: Statics | None) -> Drive:
+        """The drive of a path that is asked for."""
+        return cls(**vars(asked), viscosity=viscosity, warm=warm)
 
     @property
     def specific_load(self) -> Array:
@@ -104,32 +98,33 @@ class Drive:
         area = self.bearing.width * self.bearing.diameter
         return np.asarray(np.hypot(*self.force.T) / area)
 
-    def film(self, level: int) -> ComposedFilm:
+    def model(self, level: int) -> ComposedFilm:
         """The film with the points across of a level."""
-        if level not in self.films:
-            given = self.bearing, self.options, self.speed, self.line, level
+        if level not in self.models:
+            given = self.bearing, self.film, self.speed, self.line, level
             model = build(*given, viscosity=self.viscosity)
             model.units.raise_scale(float(self.specific_load.max()))
             film = model.film._replace(ring=model.film.ring._replace(scale=model.units.scale))
-            self.films[level] = replace(model, film=film)
-        return self.films[level]
+            self.models[level] = replace(model, film=film)
+        return self.models[level]
 
 
 class March:
     """The loops over what drives a path, and the rows that they fill."""
 
-    def __init__(self, drive: Drive, steps: Steps) -> None:
-        self.drive, self.start, self.accuracy = drive, steps.start, steps.accuracy
+    def __init__(self, drive: Drive) -> None:
+        steps, self.drive = drive.steps, drive
+        self.start, self.accuracy = steps.start, steps.accuracy
         self.levels = LEVELS
         if drive.viscosity is not None:  # as fine as the temperatures are
             self.levels = self.levels[-1:]
-        self.model = model = drive.film(self.levels[0])
-        contact = drive.options.contact
+        self.model = model = drive.model(self.levels[0])
+        contact = drive.film.contact
         rub = 0.0 if contact is None else contact.coefficient * drive.bearing.radius
         share = 0.5 if model.whole else 1.0
         self.warmth: Warmth
         self.warmth, self.states = slow_states(
-            drive.options, model.units, share, rub, steps.temperature, drive.time.size
+            drive.film, model.units, share, rub, steps.temperature, drive.time.size
         )
         self.rows = np.zeros((drive.time.size, model.columns))
         self.lines, self.loads = model.lines(drive.time.size), model.loads(drive.force)
@@ -139,10 +134,10 @@ class March:
 
     def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
         """Solve for the samples `begin` … `end`, and whether all have been; moves `place`."""
-        model, drive = self.drive.film(level), self.drive
+        model, drive = self.drive.model(level), self.drive
         solved = solve(
             model.film, model.work, place, size, begin, drive.time[:end], self.loads[:end],
-            self.lines[:end], drive.speed[:end], drive.control.tolerance, most, self.accuracy,
+            self.lines[:end], drive.speed[:end], drive.limits.tolerance, most, self.accuracy,
             self.rows[:end], _NO_SLOPES, self.warmth, self.states[:end],
         )  # fmt: skip
         return self._solved(begin, solved, model.work.u.size)
@@ -169,7 +164,7 @@ class March:
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, and where the shaft is; None where it is not found."""
-        model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
+        model, most = self.drive.model(level), 2 * self.drive.limits.max_iterations
         work, size = model.work, model.size if self.start is None else 0
         work.bend[:] = self.lines[0, 2:]
         work.u[:] = model.cold()
@@ -198,7 +193,7 @@ class March:
         In a shell that gives way the start may lie beyond the bore, where no film is near that of
         a rigid one.
         """
-        work, known = self.drive.film(level).work, self.drive.film(level).cold()
+        work, known = self.drive.model(level).work, self.drive.model(level).cold()
         share, step, spent = 0.0, 0.5, self.rows[0, at.ITERATIONS]
         while share < 1.0 and step >= _LEAST_STEP:
             ahead = min(share + step, 1.0)
@@ -214,8 +209,8 @@ class March:
 
     def _creeps(self, level: int, place: Array, most: int) -> bool:
         """Whether the first film is found from faster or standing ones; moves `place`."""
-        model, drive = self.drive.film(level), self.drive
-        limits = replace(drive.control, max_iterations=most)
+        model, drive = self.drive.model(level), self.drive
+        limits = replace(drive.limits, max_iterations=most)
         one = self.loads[:1], self.lines[:1]
         creep = Creep(model, *one, limits, self.warmth, self.states[:1])
         for found in creep.places(float(drive.speed[0])):
@@ -227,7 +222,7 @@ class March:
 
     def goes_on(self, state: State, level: int, begin: int, end: int) -> State | None:
         """The film after the samples `begin` … `end`; None where it is not found."""
-        model = self.drive.film(level)
+        model = self.drive.model(level)
         work, place = model.work, state.place.copy()
         if state is not self.reached or level != state.level:  # the factors are of another film
             work.kept[0] = 0.0
@@ -236,7 +231,7 @@ class March:
         work.u[:] = work.last
         work.places[0], work.places[3] = state.place_before, state.place_earlier
         work.past[:], work.bend[:] = state.past, state.past[2:4]
-        most = self.drive.control.max_iterations
+        most = self.drive.limits.max_iterations
         if not self.solve(level, place, model.size, begin, end, most):
             return None
         films, past = (work.last.copy(), work.before.copy()), work.past.copy()
@@ -248,11 +243,11 @@ class March:
         """Unknowns (nx, L) at the points of another level."""
         if level == other:
             return unknowns
-        return unknowns_on(unknowns, self.drive.film(level), self.drive.film(other))
+        return unknowns_on(unknowns, self.drive.model(level), self.drive.model(other))
 
     def least(self, state: State) -> float:
         """Narrowest gap that a state leaves in a rigid shell, clearances."""
-        model = self.drive.film(state.level)
+        model = self.drive.model(state.level)
         return float(model.least(state.place[None], state.past[None, 2:4])[0])
 
     def not_begun(self) -> OrbitStopped:
@@ -296,12 +291,12 @@ class March:
 class _OnPads(March):
     """The same on pads that tilt, which begin as those of the grid."""
 
-    def __init__(self, drive: Drive, steps: Steps) -> None:
-        super().__init__(drive, steps)
-        limits = replace(drive.control, max_iterations=2 * drive.control.max_iterations)
-        film, line = drive.options.isothermal(), drive.line.at(np.array([0]))
-        given = drive.bearing, film, drive.force, drive.speed, line
-        self.first, self.gap = first_on_pads(*given, limits, steps.start, drive.warm)
+    def __init__(self, drive: Drive) -> None:
+        super().__init__(drive)
+        limits = replace(drive.limits, max_iterations=2 * drive.limits.max_iterations)
+        first = drive.at_rest.at(np.array([0]))
+        asked = replace(first, film=drive.film.isothermal(), limits=limits)
+        self.first, self.gap = first_on_pads(asked, self.start, drive.warm)
         self.tilts = np.zeros((drive.time.size, self.gap.pads.size))
         self.pads: dict[int, tuple[Pads, PadWork]] = {}
         self.tried = self.pads_at(self.levels[0])[1]  # at which the last steps were
@@ -309,24 +304,24 @@ class _OnPads(March):
     def pads_at(self, level: int) -> tuple[Pads, PadWork]:
         """Pads of the film of a level."""
         if level not in self.pads:
-            model = self.drive.film(level)
+            model = self.drive.model(level)
             pads = pads_of(model.film.ring, self.gap, float(model.cold()[0, 0]))
             self.pads[level] = pads, make_pad_work(model.work.u.shape, self.gap.pads.size)
         return self.pads[level]
 
     def solve(self, level: int, place: Array, size: int, begin: int, end: int, most: int) -> bool:
-        model, drive, both = self.drive.film(level), self.drive, self.pads_at(level)
+        model, drive, both = self.drive.model(level), self.drive, self.pads_at(level)
         self.tried = both[1]
         solved = solve_on_pads(
             model.film, model.work, *both, place, size, begin, drive.time[:end],
-            self.loads[:end], self.lines[:end], drive.speed[:end], drive.control.tolerance, most,
+            self.loads[:end], self.lines[:end], drive.speed[:end], drive.limits.tolerance, most,
             self.accuracy, self.rows[:end], self.tilts[:end], self.warmth, self.states[:end],
         )  # fmt: skip
         return self._solved(begin, solved, model.work.u.size)
 
     def begins(self, level: int, begin: Callable[[], Array]) -> State | None:
         """The film at the first time, near the place of the grid; None where it is not found."""
-        model, most = self.drive.film(level), 2 * self.drive.control.max_iterations
+        model, most = self.drive.model(level), 2 * self.drive.limits.max_iterations
         work, (_, pad_work), bend = model.work, self.pads_at(level), self.lines[0, 2:]
         work.bend[:], work.u[:] = bend, model.cold()
         place = self.first.place.copy()
@@ -347,7 +342,7 @@ class _OnPads(March):
 
     def least(self, state: State) -> float:
         assert state.tilts is not None
-        model = self.drive.film(state.level)
+        model = self.drive.model(state.level)
         return self._on_tilted(model, state.place, state.past[2:4], state.tilts[LAST])
 
     def _narrowest(self, place: Array, bend: Array) -> float:
@@ -369,20 +364,13 @@ def _first(level: int, unknowns: Array, place: Array, bend: Array) -> State:
     return State(level, film, film, place, place, place, past)
 
 
-def march_of(drive: Drive, steps: Steps) -> March:
+def march_of(drive: Drive) -> March:
     """The loops over a drive that its bore asks for."""
-    return (_OnPads if Bore.of(drive.bearing).pads else March)(drive, steps)
+    return _OnPads(drive) if Bore.of(drive.bearing).pads else March(drive)
 
 
 def orbit(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
+    asked: InMotion,
     begin: Callable[[], Array],
     viscosity: Thickness | None = None,
     warm: Statics | None = None,
@@ -402,9 +390,8 @@ def orbit(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the time.
     """
-    given = bearing, options, time, force, speed, line, control
-    drive = Drive(*given, viscosity=viscosity, warm=warm)
-    march = march_of(drive, steps)
+    time, force = asked.time, asked.force
+    march = march_of(Drive.of(asked, viscosity, warm))
     model, rows = march.model, march.rows
     for level in march.levels:
         state = march.begins(level, begin)
@@ -432,9 +419,9 @@ def orbit(
     if left.any():
         warn_unresolved(left, f"t = {time[left.argmax()]:.6g} s")
     values = march.results() | {"x": rows[:, at.X], "y": rows[:, at.Y]}
-    if steps.step == "adaptive":
+    if asked.steps.step == "adaptive":
         values["steps"] = rows[:, at.STEPS].astype(int)
-    if options.contact is not None:
+    if asked.film.contact is not None:
         values["contact_share"] = contact_share(values["contact_force"], force)
     return cooled(march.warmth, march.states, values)
 

@@ -16,9 +16,6 @@ from scipy.interpolate import CubicHermiteSpline
 from loadflow.journal.cavitation import FILL, LOAD, P
 from loadflow.journal.film.cell_error import held_errors
 from loadflow.journal.film.discretise import crowds_around
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_gap_kernels import MEAN, PLANES
 from loadflow.journal.models._composed_loops import solve
@@ -36,6 +33,7 @@ from loadflow.journal.models.composed_model import (
 from loadflow.journal.models.composed_supply import falls_dry
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
+from loadflow.journal.questions import AtPosition
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -90,32 +88,22 @@ class Positions:
     """
 
     def __init__(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        position: Array,
-        velocity: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-        across: int | None = None,
-        viscosity: Thickness | None = None,
+        self, asked: AtPosition, across: int | None = None, viscosity: Thickness | None = None
     ) -> None:
-        self.bearing, self.options, self.line = bearing, options, line
-        self._crowding = crowds_around(bearing, options, line)
-        self.position, self.velocity, self.speed = position, velocity, speed
-        self.control, self.across, self.viscosity = control, across, viscosity
+        self.asked, self.across, self.viscosity = asked, across, viscosity
+        self._crowding = crowds_around(asked.bearing, asked.film, asked.line)
         self.models: dict[tuple[int, int, int | None], ComposedFilm] = {}
-        self.lines = self.model(options.cells[0], 0, across).lines(speed.size)
+        self.lines = self.model(asked.film.cells[0], 0, across).lines(asked.speed.size)
 
     def model(self, around: int, level: int, across: int | None) -> ComposedFilm:
         """The film on cells around, and on the points of a level or as many `across`."""
         key = around, level, across
         if key not in self.models:
-            fastest = np.abs(self.speed) + np.hypot(*self.velocity.T)
-            options = replace(self.options, grid=(around, self.options.cells[1]))
+            asked = self.asked
+            fastest = np.abs(asked.speed) + np.hypot(*asked.velocity.T)
+            options = replace(asked.film, grid=(around, asked.film.cells[1]))
             self.models[key] = build(
-                self.bearing, options, fastest, self.line, level, at_rest=True, across=across,
+                asked.bearing, options, fastest, asked.line, level, at_rest=True, across=across,
                 viscosity=self.viscosity,
             )  # fmt: skip
         return self.models[key]
@@ -124,7 +112,7 @@ class Positions:
         """The film of which the cells around and points across are shown: no fewer than of any."""
         around = max(film.model.options.cells[0] for film in held)
         points = max(film.model.film.nodes.slopes.shape[1] for film in held)
-        levels = levels_at_rest(self.options)[_SHOWN if self.options.supply is None else 0 :]
+        levels = levels_at_rest(self.asked.film)[_SHOWN if self.asked.film.supply is None else 0 :]
         for level in levels[:-1]:
             model = self.model(around, level, None)
             if model.film.nodes.slopes.shape[1] >= points:
@@ -133,8 +121,8 @@ class Positions:
 
     def held(self, n: int) -> Held:
         """Film at position `n`, on as many points and cells as it asks for."""
-        around = self.options.cells[0]
-        finer = finer_around(self.options, self.control)
+        around = self.asked.film.cells[0]
+        finer = finer_around(self.asked.film, self.asked.limits)
         held = self._on_levels(n, around)
         gives = held.model.film.give > 0.0
         thin = gives and held.found and not held.model.resolves_gap(held.row[at.LEAST])
@@ -146,7 +134,7 @@ class Positions:
     def _on_levels(self, n: int, around: int) -> Held:
         """Film at position `n` on cells around, on points of the first level that resolves it."""
         held = self.on(n, self.model(around, 0, self.across), None)
-        for level in levels_at_rest(self.options)[1:]:
+        for level in levels_at_rest(self.asked.film)[1:]:
             if not held.left:
                 break
             more = self.on(n, self.model(around, level, None), held)
@@ -158,10 +146,10 @@ class Positions:
     def on(self, n: int, model: ComposedFilm, near: Held | None) -> Held:
         """Film at position `n` on a model, from that `near` it on fewer points."""
         work, ring, lanes = model.work, model.film.ring, model.film.lanes
-        vx, vy = self.velocity[n]
+        vx, vy = self.asked.velocity[n]
         work.squeeze[:] = -(vx * ring.cos + vy * ring.sin)[:, None]
         work.squeeze[:] *= lanes.inner + lanes.ends
-        place = np.append(self.position[n], self.lines[n, :2])
+        place = np.append(self.asked.position[n], self.lines[n, :2])
         size = 4 if model.whole else 2
         slopes, cold = np.zeros((2, size, size)), model.cold()
         work.u[:] = cold if near is None else unknowns_on(near.unknowns, near.model, model)
@@ -176,13 +164,15 @@ class Positions:
         pressure = work.thick[PRESSURE] if model.film.thickening.on else work.state[P]
         film = work.u.copy(), pressure.copy()
         judged = Judged(ring, model.film.nodes, model.film.held.on, 1)
-        model.judge(judged, 0, float(self.speed[n]))
+        model.judge(judged, 0, float(self.asked.speed[n]))
         errors = held_errors(judged.left(), force[None])[0]
         return Held(model, *film, place, row, force, slopes, errors, found, found and left)
 
     def _solve(self, n: int, model: ComposedFilm, place: Array, slopes: Array) -> Array:
         """Row of the film at a place of position `n`, from the unknowns that are there."""
-        return placed(model, place, self.lines[n], float(self.speed[n]), self.control, slopes)
+        return placed(
+            model, place, self.lines[n], float(self.asked.speed[n]), self.asked.limits, slopes
+        )
 
     def _approach(
         self, n: int, model: ComposedFilm, place: Array, slopes: Array, spent: float
@@ -217,16 +207,7 @@ def placed(
     return row[0]
 
 
-def pressure(
-    bearing: JournalGeometry,
-    options: Film,
-    position: Array,
-    velocity: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    across: int | None = None,
-) -> tuple[dict[str, Any], Array]:
+def pressure(asked: AtPosition, across: int | None = None) -> tuple[dict[str, Any], Array]:
     """Fields of `FilmField`, (n, …), and places of the points across, m, of films at positions.
 
     As in `loadflow.journal.models.model.Model.pressure`; where there is none, `converged` is False.
@@ -238,20 +219,20 @@ def pressure(
     loadflow.errors.ValidityWarning
         A pressure that changes more across the width than the polynomials do; names the position.
     """
-    films = Positions(bearing, options, position, velocity, speed, line, control, across)
-    held = [films.held(n) for n in range(speed.size)]
+    films, count = Positions(asked, across), asked.speed.size
+    held = [films.held(n) for n in range(count)]
     left = np.array([film.left for film in held])
     if left.any():
         warn_unresolved(left, f"position {int(left.argmax())}")
     shown = films.shown(held)
-    return told(films, held, [shown] * speed.size), places_across(shown)
+    return told(films, held, [shown] * count), places_across(shown)
 
 
 def told(films: Positions, held: list[Held], shown: list[ComposedFilm]) -> dict[str, Any]:
     """Fields of `FilmField`, (n, …), of films that are `held`, shown on the
     points of a model each, as many of all.
     """
-    bearing, speed, first = films.bearing, films.speed, held[0].model
+    bearing, speed, first = films.asked.bearing, films.asked.speed, held[0].model
     rows = np.array([film.row for film in held])
     force, slopes = np.array([film.force for film in held]), np.array([f.slopes for f in held])
     count, size = speed.size, slopes.shape[-1]
@@ -270,11 +251,10 @@ def told(films: Positions, held: list[Held], shown: list[ComposedFilm]) -> dict[
         "converged": np.array([film.found for film in held]),
         "relative_grid_error": np.array([film.errors for film in held]),
     }
-    if films.options.contact is not None:
+    if films.asked.film.contact is not None:
         answer["contact_share"] = contact_share(answer["contact_force"], force)
-    cells = [
-        _cells(film, on, line, films.control) for film, on, line in zip(held, shown, films.lines)
-    ]
+    limits = films.asked.limits
+    cells = [_cells(film, on, line, limits) for film, on, line in zip(held, shown, films.lines)]
     answer |= {name: np.array([one[name] for one in cells]) for name in cells[0]}
     ring = shown[0].film.ring
     answer["angle"] = np.tile(np.unwrap(np.arctan2(ring.sin, ring.cos)), (count, 1))

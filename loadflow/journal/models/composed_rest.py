@@ -11,9 +11,6 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.cell_error import Balance, resting_errors
 from loadflow.journal.film.discretise import crowds_around
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import composed_film as at
 from loadflow.journal.models._composed_loops import solve
 from loadflow.journal.models.composed_creep import Creep
@@ -24,6 +21,7 @@ from loadflow.journal.models.composed_supply import falls_dry
 from loadflow.journal.models.composed_thick import less_thickening, thickening_of
 from loadflow.journal.models.composed_uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
+from loadflow.journal.questions import AtRest
 from loadflow.journal.rows import operating_columns
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE
 from loadflow.journal.solvers.search import IN_VAIN
@@ -94,12 +92,7 @@ class RestingFilms:
 
 
 def films_at_rest(
-    bearing: JournalGeometry,
-    options: Film,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
+    asked: AtRest,
     level: int,
     begun: Known | None = None,
     may_leave: bool = False,
@@ -110,6 +103,8 @@ def films_at_rest(
     Loads that surely ask for more cells around are not solved if these `may_leave`; `viscosity` is
     that of `build`.
     """
+    bearing, options, line = asked.bearing, asked.film, asked.line
+    force, speed = asked.force, asked.speed
     model = build(bearing, options, speed, line, level, at_rest=True, viscosity=viscosity)
     crowding = crowds_around(bearing, options, line)
     work, count = model.work, speed.size
@@ -117,7 +112,7 @@ def films_at_rest(
     both = 4 if model.whole else 2
     stiffness, damping = np.zeros((count, both, both)), np.zeros((count, both, both))
     none, thin, slopes = np.zeros(count, bool), np.zeros(count, bool), np.zeros((2, both, both))
-    loads = _Loads(model, force, speed, model.lines(count), control)
+    loads = _Loads(model, force, speed, model.lines(count), asked.limits)
     judged = Judged(model.film.ring, model.film.nodes, model.film.held.on, count)
     films: dict[int, tuple[Array, Array]] = {}
     last: int | None = None

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
 from loadflow.journal.models.finer_orbit import on_enough_cells
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import AtPosition, AtRest, InMotion
 from loadflow.journal.rows import columns_of
 from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
 from loadflow.journal.solvers.periodic import (
@@ -42,73 +42,45 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
+Question = TypeVar("Question", AtRest, AtPosition)
 
 _MOST_AROUND = 240  # cells, of an orbit that stops on fewer
 _TOLERANCE, _STEPS = 1e-10, 60  # of a load that a coarser model leaves to the grid
 
 
 @on_one_thread
-def equilibrium(
-    bearing: JournalGeometry, film: Film, force: Array, speed: Array, line: Line, limits: Limits
-) -> dict[str, Any]:
+def equilibrium(asked: AtRest) -> dict[str, Any]:
     """Static equilibria: fields of `Equilibrium`, (n, …)."""
-    if film.heat is not None:
-        return columns_of(warm_rows(bearing, film, force, speed, line, limits))
-    return columns_of(equilibrium_rows(bearing, film, force, speed, line, limits))
+    rows = equilibrium_rows if asked.film.heat is None else warm_rows
+    return columns_of(rows(asked))
 
 
 @on_one_thread
-def pressure(
-    bearing: JournalGeometry,
-    film: Film,
-    position: Array,
-    velocity: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-) -> tuple[dict[str, Any], Array]:
+def pressure(asked: AtPosition) -> tuple[dict[str, Any], Array]:
     """Films at given positions: fields of `FilmField`, (n, …), and axial places of the cells, m."""
-    if film.heat is not None:
-        rows, z = warm_fields(bearing, film, position, velocity, speed, line, limits)
-    else:
-        rows, z = field_rows(bearing, film, position, velocity, speed, line, limits)
+    fields = field_rows if asked.film.heat is None else warm_fields
+    rows, z = fields(asked)
     return columns_of(rows), z if z[0] < 0 else np.concatenate([-z[::-1], z])
 
 
 @on_one_thread
-def orbit(
-    bearing: JournalGeometry,
-    film: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def orbit(asked: InMotion) -> xr.Dataset:
     """Path of the shaft by implicit steps, or its closed path."""
-    given = time, force, speed, line, limits, steps
-    if not film.law.keeps_fill:
-        return _path(bearing, film, *given)
+    if not asked.film.law.keeps_fill:
+        return _path(asked)
 
     def path(films: Sequence[Film]) -> xr.Dataset:
         (on,) = films
-        return _path(bearing, on, *given).assign_attrs(cells_around=on.cells[0])
+        return _path(replace(asked, film=on)).assign_attrs(cells_around=on.cells[0])
 
-    return on_enough_cells([film], path, [_MOST_AROUND])
+    return on_enough_cells([asked.film], path, [_MOST_AROUND])
 
 
-def _path(
-    bearing: JournalGeometry,
-    film: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    limits: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def _path(asked: InMotion) -> xr.Dataset:
     """The orbit on the cells of its film."""
+    bearing, film, line = asked.bearing, asked.film, asked.line
+    time, force, speed = asked.time, asked.force, asked.speed
+    limits, steps = asked.limits, asked.steps
     if steps.periodic:
         check_period(time, force, speed, line)
     first_limits = replace(limits, max_iterations=2 * limits.max_iterations)
@@ -176,14 +148,7 @@ def why_none(on_grid: Callable[[], object]) -> str:
     return 'no film on rung = "reduced"; "grid" has one'
 
 
-def solve_on_grid(
-    bearing: JournalGeometry,
-    film: Film,
-    index: int,
-    line: Line,
-    answer: dict[str, Any],
-    limits: Limits,
-) -> None:
+def solve_on_grid(asked: AtRest, index: int, answer: dict[str, Any]) -> None:
     """Replace the row `index` of the `answer` of a coarser model by that of the grid.
 
     Raises
@@ -191,27 +156,12 @@ def solve_on_grid(
     SolverError
         If ``limits.strict`` and the grid has no answer either.
     """
-    force, speed = answer["force"][index], answer["speed"][index]
-    own = Limits(_TOLERANCE, _STEPS, limits.strict)
     with numbered(index):
-        [state] = equilibrium_rows(
-            bearing, film, force[None], np.array([speed]), line.at(np.array([index])), own
-        )
+        [state] = equilibrium_rows(_alone(asked, index))
     _take(answer, index, state)
 
 
-def hold_on_grid(
-    bearing: JournalGeometry,
-    film: Film,
-    position: Array,
-    velocity: Array,
-    speed: Array,
-    line: Line,
-    index: int,
-    answer: dict[str, Any],
-    z: Array,
-    limits: Limits,
-) -> None:
+def hold_on_grid(asked: AtPosition, index: int, answer: dict[str, Any], z: Array) -> None:
     """The same of the field at a position, shown at the angles of the answer and at `z`, m.
 
     Raises
@@ -221,11 +171,8 @@ def hold_on_grid(
     SolverError
         If ``limits.strict`` and the grid has no answer either.
     """
-    one = np.array([index])
-    given = bearing, film, position[one], velocity[one], speed[one], line.at(one)
-    own = Limits(_TOLERANCE, _STEPS, limits.strict)
     with numbered(index):
-        found, places = pressure(*given, own)
+        found, places = pressure(_alone(asked, index))
     state = {name: values[0] for name, values in found.items()}
     for name in ("pressure", "fill", "deformation", "gap"):
         rows = np.array([np.interp(z, places, values) for values in state[name]])
@@ -235,6 +182,12 @@ def hold_on_grid(
         ]
         state[name] = np.transpose(around)
     _take(answer, index, state | {"angle": answer["angle"][index]})
+
+
+def _alone(asked: Question, index: int) -> Question:
+    """The question of one load or position, within the limits of the grid."""
+    own = Limits(_TOLERANCE, _STEPS, asked.limits.strict)
+    return replace(asked.at(np.array([index])), limits=own)
 
 
 def _take(answer: dict[str, Any], index: int, state: dict[str, Any]) -> None:

@@ -13,20 +13,17 @@ from loadflow.errors import SolverError
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import _mobility_kernels as kernel
 from loadflow.journal.models import mobility_films as row
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import AtRest, InMotion
 from loadflow.journal.rows import operating_columns, without_supply
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.quantities import FILM
 
 if TYPE_CHECKING:
     import xarray as xr
-
-from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -106,9 +103,7 @@ def bearing_map(bearing: JournalGeometry, options: Film, force: Array) -> Bearin
     return BearingMap(bearing, options, table, np.array([pressure * area, velocity]), pressure)
 
 
-def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
-) -> dict[str, Any]:
+def equilibrium(asked: AtRest) -> dict[str, Any]:
     """Static equilibria: where the velocity of the map is zero.
 
     A load that the map does not cover is solved on the grid that the map is made of: ambient
@@ -119,21 +114,21 @@ def equilibrium(
     SolverError
         A load at ω = 0, or one that the grid does not carry either; names the first such load.
     """
-    force, speed = np.array(force), np.array(speed)  # rows are replaced
-    film = bearing_map(bearing, options, force)
+    bearing, force, speed = asked.bearing, np.array(asked.force), np.array(asked.speed)
+    film = bearing_map(bearing, asked.film, force)
     position, iterations, residual = _at_rest(film, force, speed)
     found = film.results(position, force, speed)
     covered = found.pop("in_range") & (~force.any(axis=-1) | (iterations > 0))
     answer = {
-        **operating_columns(bearing, force, speed, options.liquid, position),
+        **operating_columns(bearing, force, speed, film.options.liquid, position),
         **found,
         "eccentricity_ratio": np.hypot(*position.T),
         "iterations": iterations,
         "converged": covered,
         "residual": residual,
     }
-    for index in np.flatnonzero(~covered) if control.refine else ():
-        solve_on_grid(bearing, film.options, int(index), line, answer, control)
+    for index in np.flatnonzero(~covered) if asked.limits.refine else ():
+        solve_on_grid(replace(asked, film=film.options), int(index), answer)
     return answer
 
 
@@ -159,16 +154,7 @@ def _at_rest(
     return position, iterations, residual
 
 
-def orbit(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def orbit(asked: InMotion) -> xr.Dataset:
     """Path of the shaft by an ordinary differential equation.
 
     `residual` is the largest error of a step over the narrowest gap, kept below √tolerance, and
@@ -179,28 +165,20 @@ def orbit(
     SolverError
         No equilibrium to start from, or too many steps between two times.
     """
-    film = bearing_map(bearing, options, force)
-    start = steps.start
+    bearing, force, speed = asked.bearing, asked.force, asked.speed
+    film = bearing_map(bearing, asked.film, force)
+    start = asked.steps.start
     if start is None:
-        first = equilibrium(bearing, film.options, force[:1], speed[:1], line, control)
+        first = equilibrium(replace(asked.at_rest, film=film.options).at(np.array([0])))
         start = first["eccentricity"][0] / bearing.clearance
-    path, _, values = advance(
-        film.table.motion, film.table.axes, film.units, time, force, speed, start, control
-    )
+    path, _, values = advance(film.table.motion, film.table.axes, film.units, asked, start)
     values |= film.results(path, force, speed)
-    data = orbit_dataset(values, time, force, speed, bearing.clearance)
+    data = orbit_dataset(values, asked.time, force, speed, bearing.clearance)
     return data.assign(in_range=("time", values["in_range"], FILM["in_range"].attributes))
 
 
 def advance(
-    motion: Array,
-    axes: Array,
-    units: Array,
-    time: Array,
-    force: Array,
-    speed: Array,
-    start: Array,
-    control: Limits,
+    motion: Array, axes: Array, units: Array, asked: InMotion, start: Array
 ) -> tuple[Array, Array, dict[str, Any]]:
     """Path of the shaft and its velocity u against the oil, (n, 2), and values for the orbit.
 
@@ -209,12 +187,13 @@ def advance(
     SolverError
         Too many steps between two times.
     """
+    time, force, speed = asked.time, asked.force, asked.speed
     path, slip, error = np.empty((time.size, 2)), np.empty((time.size, 2)), np.zeros(time.size)
     steps = np.zeros(time.size, dtype=np.int64)
     stop = kernel.march(
         motion, axes, units, time, np.ascontiguousarray(force),
         np.require(speed, requirements=("C", "W")),  # one that is read-only compiles anew
-        start, math.sqrt(control.tolerance), _MOST, path, slip, steps, error,
+        start, math.sqrt(asked.limits.tolerance), _MOST, path, slip, steps, error,
     )  # fmt: skip
     if stop >= 0:
         raise SolverError(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Literal, Protocol, cast
 
@@ -16,10 +15,9 @@ from loadflow.journal.film.ring_growth import OPEN, RUNS_ROUND
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.questions import AtPosition, AtRest, InMotion, Steps
 from loadflow.journal.rungs import FEATURES, RUNGS, Rung
 from loadflow.journal.shapes import Shape
-from loadflow.numerics.convergence import Limits
-from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,82 +26,18 @@ Array = NDArray[np.float64]
 Verb = Literal["at_rest", "in_motion", "at_position"]
 
 _KEEPS_MASS = "a law that conserves mass, such as MassConserving, with heat over the area"
-_PERIODIC = (False, True, "direct", "marching")
-
-
-@dataclass(frozen=True)
-class Steps:
-    """How an orbit goes through time, as documented at `JournalBearing.orbit`.
-
-    Attributes
-    ----------
-    start : array (2,), optional
-        First position, clearances.
-    temperature : float
-        Of the film at the first time, K, where it stores heat.
-    """
-
-    start: Array | None = None
-    step: Literal["given", "adaptive"] = "given"
-    step_tolerance: float = 1e-3
-    periodic: bool | Literal["direct", "marching"] = False
-    closure: float = 1e-6
-    max_periods: int = 100
-    temperature: float = 0.0
-
-    def __post_init__(self) -> None:
-        require(self.step in ("given", "adaptive"), "step", self.step, '"given" or "adaptive"')
-        require(self.step_tolerance > 0, "step_tolerance", self.step_tolerance, "> 0")
-        allowed = 'False, True, "direct" or "marching"'
-        require(self.periodic in _PERIODIC, "periodic", self.periodic, allowed)
-
-    @property
-    def accuracy(self) -> float:
-        """Error of a step, share of the narrowest gap; no limit where steps are given."""
-        return self.step_tolerance if self.step == "adaptive" else np.inf
 
 
 class Model(Protocol):
     """What a rung offers; a module, or an object of one."""
 
-    def equilibrium(
-        self,
-        bearing: JournalGeometry,
-        film: Film,
-        force: Array,
-        speed: Array,
-        line: Line,
-        limits: Limits,
-    ) -> dict[str, Any]:
-        """Return the fields of `Equilibrium` for `force` (n, 2) and `speed` (n,), n leading."""
+    def equilibrium(self, asked: AtRest) -> dict[str, Any]:
+        """Return the fields of `Equilibrium`, n leading."""
 
-    def pressure(
-        self,
-        bearing: JournalGeometry,
-        film: Film,
-        position: Array,
-        velocity: Array,
-        speed: Array,
-        line: Line,
-        limits: Limits,
-    ) -> tuple[dict[str, Any], Array]:
-        """Return the fields of `FilmField`, n leading, at positions and velocities (n, 2).
+    def pressure(self, asked: AtPosition) -> tuple[dict[str, Any], Array]:
+        """Return the fields of `FilmField`, n leading; the axial places of the cells (m) apart."""
 
-        They are in clearances, and clearances per second; the axial places of the cells (m) come
-        apart.
-        """
-
-    def orbit(
-        self,
-        bearing: JournalGeometry,
-        film: Film,
-        time: Array,
-        force: Array,
-        speed: Array,
-        line: Line,
-        limits: Limits,
-        steps: Steps,
-    ) -> xr.Dataset:
+    def orbit(self, asked: InMotion) -> xr.Dataset:
         """Return the Dataset of `JournalBearing.orbit`."""
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,7 +26,6 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import (
     composed,
     composed_closed,
@@ -40,7 +40,6 @@ from loadflow.journal.models._reduced_loops import finish, march, newton
 from loadflow.journal.models.composed_error import Judged
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.grid import solve_on_grid
-from loadflow.journal.models.model import Steps
 from loadflow.journal.models.reduced_film import Reduced, Work, make_work
 from loadflow.journal.models.ring import (
     estimates,
@@ -51,6 +50,7 @@ from loadflow.journal.models.ring import (
 )
 from loadflow.journal.models.slow_heat import THIN, cooled, slow_states
 from loadflow.journal.models.width_modes import half_width_nodes, lobatto
+from loadflow.journal.questions import AtPosition, AtRest, InMotion
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
 from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
@@ -70,25 +70,25 @@ _MOST_AROUND = 480  # cells, of an orbit that stops on fewer
 POINTS = 3  # across the half width; the largest pressure moves by 0.4 % at most with more of them
 
 
-def equilibrium(
-    bearing: JournalGeometry, options: Film, force: Array, speed: Array, line: Line, control: Limits
-) -> dict[str, Any]:
+def equilibrium(asked: AtRest) -> dict[str, Any]:
     """Static equilibria; a load that fails or is not resolved here is solved on the grid.
 
     So are all on pads that tilt: at rest these are of the grid alone. With heat over the area a
     load that fails here has no film, and says whether the grid has one.
     """
+    bearing, options, control = asked.bearing, asked.film, asked.limits
     if Bore.of(bearing).pads:
-        return grid.equilibrium(bearing, options, force, speed, line, control)
-    force, speed = np.array(force), np.array(speed)  # of the layout that the kernels know
+        return grid.equilibrium(asked)
+    force, speed = np.array(asked.force), np.array(asked.speed)  # of the layout that kernels know
+    asked = replace(asked, force=force, speed=speed)
     if options.heat is not None:
-        return composed_heat.equilibrium(bearing, options, force, speed, line, control)
-    if composed.composes(bearing, options, line):
-        answer, found, none = composed.equilibrium(bearing, options, force, speed, line, control)
+        return composed_heat.equilibrium(asked)
+    if composed.composes(bearing, options, asked.line):
+        answer, found, none = composed.equilibrium(asked)
         answer["converged"] = found
         if not control.strict:  # else the grid says why
             answer, found = answered_rows(found | ~none, answer), found | none
-        return _with_the_grid(bearing, options, line, answer, control, found)
+        return _with_the_grid(asked, answer, found)
     film = units_of(bearing, options, speed)
     reduced, work = _discrete(bearing, options, film)
     half = float(film.mesh.z_edges[-1])
@@ -141,60 +141,37 @@ def equilibrium(
         "converged": rows[:, at.CONVERGED] > 0,
         "relative_grid_error": resting_errors(judged.left(), balance),
     }
-    return _with_the_grid(bearing, options, line, answer, control, answer["converged"])
+    return _with_the_grid(asked, answer, answer["converged"])
 
 
 def _with_the_grid(
-    bearing: JournalGeometry,
-    options: Film,
-    line: Line,
-    answer: dict[str, Any],
-    control: Limits,
-    known: NDArray[np.bool_],
+    asked: AtRest, answer: dict[str, Any], known: NDArray[np.bool_]
 ) -> dict[str, Any]:
     """The answer, its loads that are not `known` solved on the grid, if they may be."""
-    if not control.refine:
+    if not asked.limits.refine:
         return answer
     for index in np.flatnonzero(~known):
-        solve_on_grid(bearing, options, int(index), line, answer, control)
+        solve_on_grid(asked, int(index), answer)
     return answer
 
 
-def pressure(
-    bearing: JournalGeometry,
-    options: Film,
-    position: Array,
-    velocity: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-) -> tuple[dict[str, Any], Array]:
+def pressure(asked: AtPosition) -> tuple[dict[str, Any], Array]:
     """Films at given positions; one that fails or is not resolved here is solved on the grid.
 
     So are all on pads that tilt, as at rest.
     """
-    given = bearing, options, position, velocity, speed
-    if Bore.of(bearing).pads:
-        return grid.pressure(*given, line, control)
-    if options.heat is not None:
-        return composed_heat_position.pressure(*given, line, control)
-    across = None if composed.composes(bearing, options, line) else POINTS
-    answer, z = composed_position.pressure(*given, line, control, across)
+    if Bore.of(asked.bearing).pads:
+        return grid.pressure(asked)
+    if asked.film.heat is not None:
+        return composed_heat_position.pressure(asked)
+    across = None if composed.composes(asked.bearing, asked.film, asked.line) else POINTS
+    answer, z = composed_position.pressure(asked, across)
     for n in np.flatnonzero(~answer["converged"]):
-        grid.hold_on_grid(*given, line, int(n), answer, z, control)
+        grid.hold_on_grid(asked, int(n), answer, z)
     return answer, z
 
 
-def orbit(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def orbit(asked: InMotion) -> xr.Dataset:
     """Path of the shaft; all steps in one compiled loop.
 
     Raises
@@ -203,53 +180,44 @@ def orbit(
         No equilibrium to start from, or a step that fails even when cut to 1/256, also on twice the
         cells around.
     """
+    time, force, speed = (np.array(values) for values in (asked.time, asked.force, asked.speed))
+    asked = replace(asked, time=time, force=force, speed=speed)  # of the layout that kernels know
 
     def path(films: Sequence[Film]) -> xr.Dataset:
         (on,) = films
-        found = _path(bearing, on, time, force, speed, line, control, steps)
-        return found.assign_attrs(cells_around=on.cells[0])
+        return _path(replace(asked, film=on)).assign_attrs(cells_around=on.cells[0])
 
-    return on_enough_cells([options], path, [_MOST_AROUND])
+    return on_enough_cells([asked.film], path, [_MOST_AROUND])
 
 
-def _path(
-    bearing: JournalGeometry,
-    options: Film,
-    time: Array,
-    force: Array,
-    speed: Array,
-    line: Line,
-    control: Limits,
-    steps: Steps,
-) -> xr.Dataset:
+def _first_position(asked: InMotion) -> Array:
+    """First position (4,) of a path by the grid."""
+    bearing, first = asked.bearing, asked.at_rest.at(np.array([0]))
+    cold, limits = asked.film.isothermal(), replace(asked.limits, strict=True)
+    try:
+        found = grid.equilibrium(replace(first, film=cold, limits=limits))
+    except SolverError as error:
+        why = f"orbit cannot start: {str(error).removeprefix('load 0: ')}"
+        if asked.film.shell is not None:
+            raise SolverError(why) from error  # the grid has tried more cells
+        raise OrbitStopped(why) from error
+    place = np.append(found["eccentricity"][0] / bearing.clearance, np.zeros(2))
+    if not asked.line.straight:
+        place[2:] = found["tilt"][0] * (bearing.radius / bearing.clearance)
+    return place
+
+
+def _path(asked: InMotion) -> xr.Dataset:
     """The orbit on the cells of its film."""
-    time, force, speed = (np.array(values) for values in (time, force, speed))
-
-    def first_position() -> Array:
-        """First position (4,) by the grid."""
-        try:
-            first = grid.equilibrium(
-                bearing, options.isothermal(), force[:1], speed[:1], line.at(np.array([0])),
-                replace(control, strict=True),
-            )  # fmt: skip
-        except SolverError as error:
-            why = f"orbit cannot start: {str(error).removeprefix('load 0: ')}"
-            if options.shell is not None:
-                raise SolverError(why) from error  # the grid has tried more cells
-            raise OrbitStopped(why) from error
-        unit = bearing.radius / bearing.clearance
-        place = np.append(first["eccentricity"][0] / bearing.clearance, np.zeros(2))
-        place[2:] = first["tilt"][0] * unit if not line.straight else 0.0
-        return place
-
-    over_area, viscosity, warm, bare = None, None, None, options
-    if options.heat is not None and options.heat.over_area:
-        many_steps = replace(control, max_iterations=2 * control.max_iterations)
-        given = bearing, options, force, speed, line, many_steps
-        over_area, viscosity, warm = composed_heat.mean_around(*given)
-        bare = options.isothermal()
-
-    driven = bearing, bare, time, force, speed, line, control, steps
+    bearing, line, limits, steps = asked.bearing, asked.line, asked.limits, asked.steps
+    time, force, speed = asked.time, asked.force, asked.speed
+    over_area, viscosity, warm, bare = None, None, None, asked.film
+    if bare.heat is not None and bare.heat.over_area:
+        many_steps = replace(limits, max_iterations=2 * limits.max_iterations)
+        warmed = composed_heat.mean_around(replace(asked.at_rest, limits=many_steps))
+        over_area, viscosity, warm = warmed
+        bare = bare.isothermal()
+    driven, begin = replace(asked, film=bare), partial(_first_position, asked)
 
     def told(values: dict[str, Any]) -> xr.Dataset:
         """The path of some values over time."""
@@ -258,14 +226,20 @@ def _path(
 
     if steps.periodic:
         check_period(time, force, speed, line)
-        if not (bearing.shape.segments or bearing.relief or options.supply or not line.straight):
+        if not (bearing.shape.segments or bearing.relief or bare.supply or not line.straight):
             check_half_speed_whirl(time, force, speed)
-        values, about = composed_closed.orbit(*driven, first_position, viscosity, warm)
+        values, about = composed_closed.orbit(driven, begin, viscosity, warm)
         return told(values).assign_attrs(about)
-    effects = over_area is not None or composed.composes(bearing, options, line)
+    effects = over_area is not None or composed.composes(bearing, bare, line)
     if effects or Bore.of(bearing).pads:
-        values = composed_path.orbit(*driven, first_position, viscosity, warm)
-        return told(values)
+        return told(composed_path.orbit(driven, begin, viscosity, warm))
+    return told(_aligned_path(asked))
+
+
+def _aligned_path(asked: InMotion) -> dict[str, Any]:
+    """Variables over time of the path of an aligned shaft in a film without effects."""
+    bearing, options, limits, steps = asked.bearing, asked.film, asked.limits, asked.steps
+    time, force, speed = asked.time, asked.force, asked.speed
     film = units_of(bearing, options, speed)
     film.raise_scale(float(np.hypot(*force.T).max()) / (bearing.width * bearing.diameter))
     reduced, work = _discrete(bearing, options, film)
@@ -273,18 +247,18 @@ def _path(
     start = steps.start
     first = estimates(bearing, film, force[:1], speed[:1])[0] if start is None else start
     if reduced.ring.shaped and start is None:
-        first = first_position()[:2]
+        first = _first_position(asked)[:2]
     rows = np.zeros((time.size, at.RESULTS))
     warmth, states = slow_states(options, film, 1.0, 0.0, steps.temperature, time.size)
     begun = speed[0] * states[0, THIN]
-    many = control.tolerance, 2 * control.max_iterations
+    many = limits.tolerance, 2 * limits.max_iterations
     freed, held = reduced._replace(free=start is None), reduced._replace(free=False)
     fx, fy = force[0]
     x, y, residual, iterations, converged, rounding = newton(
         freed, work, first[0], first[1], fx, fy, begun, 0.0, *many
     )
     if not converged and start is None:  # near where the grid has its own, with their film solved
-        first = first_position()[:2]
+        first = _first_position(asked)[:2]
         for share in (1.0, *OFF_THE_BORE):
             work.u[:] = _cold(film, reduced)
             x, y = share * first
@@ -299,7 +273,7 @@ def _path(
         raise no_start(force[0], speed[0], float(np.hypot(x, y)), missed)
     rows[0, at.RESIDUAL :] = residual, iterations, converged, rounding
     solved = march(
-        reduced, work, x, y, time, force, speed, control.tolerance, control.max_iterations,
+        reduced, work, x, y, time, force, speed, limits.tolerance, limits.max_iterations,
         steps.accuracy, rows, warmth, states,
     )  # fmt: skip
     last = solved - 1
@@ -311,7 +285,7 @@ def _path(
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}
     if steps.step == "adaptive":
         values["steps"] = rows[:, at.STEPS].astype(int)
-    return orbit_dataset(values, time, force, speed, bearing.clearance)
+    return values
 
 
 class _Starts:

@@ -52,6 +52,7 @@ from loadflow.journal.models.slow_heat import (
     cooled,
     standing_states,
 )
+from loadflow.journal.questions import AtRest
 from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
 from loadflow.numerics.convergence import Limits
 
@@ -257,10 +258,9 @@ class _March:
             unit = model.bearing.clearance / model.bearing.radius
             line = Line(tilt=unit * side.place[None, 2:], bend=self.lying.bend[:1, k])
             given = self.lying.force[:1, k], self.speed[:1], line, self.control
+            asked = AtRest(model.bearing, model.options.isothermal(), *given)
             try:
-                first, _ = first_on_pads(
-                    model.bearing, model.options.isothermal(), *given, side.place[:2]
-                )
+                first, _ = first_on_pads(asked, side.place[:2])
             except (InputError, SolverError):  # the former where they meet the shaft
                 if last:
                     raise

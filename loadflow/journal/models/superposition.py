@@ -18,12 +18,10 @@ from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import Guembel
 from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
 from loadflow.journal.models import mobility_map
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
-from loadflow.journal.models.model import Steps
+from loadflow.journal.questions import AtRest, InMotion
 from loadflow.journal.solvers.transient import orbit_dataset
 from loadflow.numerics.splines import spline
 from loadflow.quantities import FILM
@@ -31,7 +29,6 @@ from loadflow.quantities import FILM
 if TYPE_CHECKING:
     import xarray as xr
 
-    from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
 
@@ -53,51 +50,32 @@ class Superposed:
     name: str
     chart: Chart
 
-    def equilibrium(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        force: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-    ) -> dict[str, Any]:
+    def equilibrium(self, asked: AtRest) -> dict[str, Any]:
         """Static equilibria: those of the chart."""
-        return replace(self.chart, name=self.name).equilibrium(
-            bearing, options, force, speed, line, control
-        )
+        return replace(self.chart, name=self.name).equilibrium(asked)
 
-    def orbit(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        time: Array,
-        force: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-        steps: Steps,
-    ) -> xr.Dataset:
+    def orbit(self, asked: InMotion) -> xr.Dataset:
         """Path of the shaft by an ordinary differential equation, as of the rung "map".
 
         Largest pressure, flow and fill are not known and missing.
         """
+        bearing, force, speed = asked.bearing, asked.force, asked.speed
         width_ratio = width_of(bearing, self.name)
-        start = steps.start
+        start = asked.steps.start
         if start is None:
-            first = self.equilibrium(bearing, options, force[:1], speed[:1], line, control)
+            first = self.equilibrium(asked.at_rest.at(np.array([0])))
             start = first["eccentricity"][0] / bearing.clearance
         motion, axes = _vectors(self.chart, width_ratio)
-        viscosity = options.liquid.viscosity
+        viscosity = asked.film.liquid.viscosity
         per_load = bearing.relative_clearance**2 / (12 * viscosity)
         units = np.array([bearing.width * bearing.diameter, per_load])
-        path, slip, values = advance(motion, axes, units, time, force, speed, start, control)
+        path, slip, values = advance(motion, axes, units, asked, start)
         gap = 1 - np.hypot(*path.T)
         values |= {
             "minimum_film": bearing.clearance * gap,
             "friction_power": friction_power(bearing, viscosity, path, force, speed, slip),
         }
-        data = orbit_dataset(values, time, force, speed, bearing.clearance)
+        data = orbit_dataset(values, asked.time, force, speed, bearing.clearance)
         covered = gap >= 1 - self.chart.largest
         return data.assign(in_range=("time", covered, FILM["in_range"].attributes))
 
@@ -122,37 +100,18 @@ def _vectors(chart: Chart, width_ratio: float) -> tuple[Array, Array]:
 class Hahn:
     """Superposed pressures: the Gümbel film without an inlet, by its map."""
 
-    @staticmethod
-    def _film(options: Film) -> Film:
-        law = Guembel(cavitation_pressure=options.edge_pressure)
-        return replace(options, cavitation=law, inlet=None)
-
-    def equilibrium(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        force: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-    ) -> dict[str, Any]:
+    def equilibrium(self, asked: AtRest) -> dict[str, Any]:
         """Static equilibria of the Gümbel film."""
-        return mobility_map.equilibrium(bearing, self._film(options), force, speed, line, control)
+        return mobility_map.equilibrium(replace(asked, film=_guembel(asked.film)))
 
-    def orbit(
-        self,
-        bearing: JournalGeometry,
-        options: Film,
-        time: Array,
-        force: Array,
-        speed: Array,
-        line: Line,
-        control: Limits,
-        steps: Steps,
-    ) -> xr.Dataset:
+    def orbit(self, asked: InMotion) -> xr.Dataset:
         """Path of the shaft in the Gümbel film."""
-        film = self._film(options)
-        return mobility_map.orbit(bearing, film, time, force, speed, line, control, steps)
+        return mobility_map.orbit(replace(asked, film=_guembel(asked.film)))
+
+
+def _guembel(film: Film) -> Film:
+    law = Guembel(cavitation_pressure=film.edge_pressure)
+    return replace(film, cavitation=law, inlet=None)
 
 
 HOLLAND = Superposed("holland", TABLE)

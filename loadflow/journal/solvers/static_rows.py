@@ -9,34 +9,26 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
-from loadflow.journal.film_model import Film
-from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.line import Line
+from loadflow.journal.questions import AtPosition, AtRest
 from loadflow.journal.rows import field_cells, field_row, static_row
 from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.search import Search, goes_on
 from loadflow.journal.solvers.statics import Statics
-from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
 Array = NDArray[np.float64]
 
 
-def equilibrium_rows(
-    bearing: JournalGeometry,
-    options: Film,
-    loads: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> list[dict[str, Any]]:
-    """Rows of `Equilibrium` for `loads` (n, 2), N, and `speeds` (n,), rad/s.
+def equilibrium_rows(asked: AtRest) -> list[dict[str, Any]]:
+    """Rows of `Equilibrium`.
 
     Raises
     ------
     loadflow.errors.SolverError
-        If ``control.strict``, the first load without an answer.
+        If ``limits.strict``, the first load without an answer.
     """
+    bearing, options, line, control = asked.bearing, asked.film, asked.line, asked.limits
+    loads, speeds = asked.force, asked.speed
     statics = Statics(bearing, options, line, float(np.abs(speeds).max()))
     if statics.film.pockets.free.size:  # the supply must raise the pressure that carries the load
         statics.raise_scale(loads)
@@ -78,31 +70,24 @@ def equilibrium_rows(
     return rows
 
 
-def field_rows(
-    bearing: JournalGeometry,
-    options: Film,
-    places: Array,
-    velocities: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> tuple[list[dict[str, Any]], Array]:
+def field_rows(asked: AtPosition) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmField` and axial places of the cells, m.
 
-    `places` (n, 2) are in clearances, `velocities` (n, 2) in clearances per second. Each film is
-    solved on the cells on which an equilibrium would be there; if those of some are graded, all are
-    shown on as many.
+    Each film is solved on the cells on which an equilibrium would be there; if those of some are
+    graded, all are shown on as many.
 
     Raises
     ------
     loadflow.errors.InputError
         The first position at which the shaft touches the bore.
     loadflow.errors.SolverError
-        If ``control.strict``, the first film without an answer.
+        If ``limits.strict``, the first film without an answer.
     """
+    places, velocities, speeds = asked.position, asked.velocity, asked.speed
+    bearing, line, control = asked.bearing, asked.line, asked.limits
     require(line.moment is None, "moment", "given", "tilt is given where the position is")
     fastest = np.abs(speeds) + np.hypot(velocities[:, 0], velocities[:, 1])
-    statics = Statics(bearing, options, line, float(fastest.max()))
+    statics = Statics(bearing, asked.film, line, float(fastest.max()))
     suited = [statics.suited(place) for place in places]
     shown = next((used for used in suited if used is not statics), statics)
     rows = []

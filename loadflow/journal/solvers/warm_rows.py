@@ -15,6 +15,7 @@ from loadflow.journal.film.temperatures import Temperatures, Warmth
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.questions import AtPosition, AtRest
 from loadflow.journal.rows import field_row, static_row
 from loadflow.journal.solvers.newton import Solution, solve_film
 from loadflow.journal.solvers.search import Search
@@ -34,21 +35,16 @@ Array = NDArray[np.float64]
 _MOST_AROUND = 240  # cells, of a film that is not found on fewer
 
 
-def warm_rows(
-    bearing: JournalGeometry,
-    options: Film,
-    loads: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> list[dict[str, Any]]:
+def warm_rows(asked: AtRest) -> list[dict[str, Any]]:
     """Rows of `FilmHeatEquilibrium`.
 
     Raises
     ------
     loadflow.errors.SolverError
-        If ``control.strict``, the first load without film or temperatures.
+        If ``limits.strict``, the first load without film or temperatures.
     """
+    bearing, options, line, control = asked.bearing, asked.film, asked.line, asked.limits
+    loads, speeds = asked.force, asked.speed
     statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
     each = replace(control, strict=False)
     around, across = options.cells
@@ -95,18 +91,12 @@ def warm_rows(
     return rows
 
 
-def warm_fields(
-    bearing: JournalGeometry,
-    options: Film,
-    places: Array,
-    velocities: Array,
-    speeds: Array,
-    line: Line,
-    control: Limits,
-) -> tuple[list[dict[str, Any]], Array]:
+def warm_fields(asked: AtPosition) -> tuple[list[dict[str, Any]], Array]:
     """Rows of `FilmHeatField` and axial places of the cells, m; errors as of `warm_rows`."""
+    bearing, line, control = asked.bearing, asked.line, asked.limits
+    places, velocities, speeds = asked.position, asked.velocity, asked.speed
     require(not velocities.any(), "velocity", velocities.tolist(), "0 with heat over the area")
-    statics, equation = _prepared(bearing, options, line, float(np.abs(speeds).max()))
+    statics, equation = _prepared(bearing, asked.film, line, float(np.abs(speeds).max()))
     rows = []
     for index, omega in enumerate(speeds.tolist()):
 
