@@ -15,9 +15,10 @@ from loadflow.errors import InputError
 from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
 from loadflow.studies.compare_tilt import carries_thrust
+from loadflow.studies.rolling_verdicts import RollingLimits, _static
 from loadflow.studies.run_lifetime import run_lifetime
 from loadflow.studies.uncarried import located, uncarried
-from loadflow.studies.verdicts import RollingLimits, _static, verdicts
+from loadflow.studies.verdicts import verdicts
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 FILM = {"grid": [24, 8]}
@@ -265,6 +266,43 @@ def test_the_smallest_film_allowed_is_roughness_waviness_and_margin():
         }
     ).journal
     assert journal.least_film == pytest.approx(10e-6)
+
+
+BORE = {"diameter": 1.5, "width": 1.5, "relative_clearance": 1e-3}
+LEMON = BORE | {"shape": {"kind": "lobes", "count": 2, "preload": 0.3}}
+PADS = BORE | {"shape": {"kind": "tilting pads", "count": 4, "arc": 1.3, "preload": 0.4}}
+
+
+@pytest.mark.parametrize("geometry", [LEMON, PADS])
+def test_lobes_and_pads_keep_the_film_that_a_cylinder_has_at_its_critical_eccentricity(
+    run, geometry
+):
+    judged = again(run, journal=FILM | {"geometry": geometry})
+    told = {v.quantity: v for v in judged if v.subject == "journal N"}
+    film, ratio = told["smallest film"], told["eccentricity ratio ε"]
+    assert film.limit == pytest.approx(37.5e-6)  # (5.1), of this clearance
+    assert "E_krit" in film.source
+    assert film.key == "journal.limits.eccentricity_ratio"
+    assert ratio.answer == "no limit"
+    assert "no certain ε" in ratio.source
+    # (3.1) goes before a thinner one
+    tight = again(run, journal=FILM | {"geometry": geometry | {"relative_clearance": 1e-4}})
+    (film,) = (v for v in tight if (v.subject, v.quantity) == ("journal N", "smallest film"))
+    assert film.limit == pytest.approx(13.8e-6)
+    assert "(3.1)" in film.source
+
+
+def test_tilting_pads_have_no_least_sommerfeld_number_unless_it_is_stated(run):
+    def least(geometry, **limits):
+        judged = again(run, journal=FILM | {"geometry": geometry, "limits": limits})
+        what = "journal N", "smallest mean Sommerfeld number"
+        (found,) = (v for v in judged if (v.subject, v.quantity) == what)
+        return found
+
+    assert least(LEMON).limit == least(BORE).limit == 1.0
+    assert least(PADS).answer == "no limit"
+    assert "do not whirl" in least(PADS).source
+    assert least(PADS, sommerfeld_range=(0.9, 6.0)).limit == 0.9
 
 
 def test_the_material_carries_less_the_warmer_it_is():

@@ -19,8 +19,8 @@ def film_series(samples: xr.Dataset) -> Figure:
     Parameters
     ----------
     samples : xarray.Dataset
-        `eccentricity_ratio`, `minimum_film` and `maximum_pressure` over `time`: an orbit, or the
-        samples of a run.
+        `minimum_film`, `maximum_pressure` and, of a journal bearing, `eccentricity_ratio` over
+        `time`: an orbit, or the samples of a run.
 
     Returns
     -------
@@ -36,15 +36,16 @@ def film_series(samples: xr.Dataset) -> Figure:
     >>> len(film_series(path).axes)
     3
     """
-    drawing, axes = figure(3, sharex=True, height=1.8)
-    panels = (("eccentricity_ratio", None), ("minimum_film", "µm"), ("maximum_pressure", None))
+    wanted = (("eccentricity_ratio", None), ("minimum_film", "µm"), ("maximum_pressure", None))
+    panels = [(name, unit) for name, unit in wanted if name in samples]
+    drawing, axes = figure(len(panels), sharex=True, height=1.8)
     for axis, (name, unit) in zip(axes, panels):
         values, shown = readable(samples[name], unit)
         envelope(axis, samples["time"].values, values, name)
         said = samples[name].attrs["long_name"]
         axis.set_title(said if shown == "–" else f"{said}, {shown}")
     reduced = samples.attrs.get("motion") == "quasi-static"
-    axes[2].set_xlabel("time, s (reduced series)" if reduced else "time, s")
+    axes[-1].set_xlabel("time, s (reduced series)" if reduced else "time, s")
     return drawing
 
 

@@ -45,7 +45,12 @@ def load_chart(
 
 
 def film_chart(
-    samples: xr.Dataset, caption: str, fold: bool, count: int = SAMPLES, level: float | None = None
+    samples: xr.Dataset,
+    caption: str,
+    fold: bool,
+    count: int = SAMPLES,
+    level: float | None = None,
+    least: float | None = None,
 ) -> Chart:
     """Eccentricity ratio, smallest film and largest pressure over time.
 
@@ -61,12 +66,14 @@ def film_chart(
         Values of a line in the page.
     level : float, optional
         Eccentricity ratio at which mixed friction begins.
+    least : float, optional
+        Film, m, at which it begins where no such ratio tells.
     """
     order = np.argsort(samples["time"].values, kind="stable")
     panels = []
     for name, short, units, at in (  # a long name has no room beside a frame
         ("eccentricity_ratio", "eccentricity ratio", None, level),
-        ("minimum_film", "smallest film", "µm", None),
+        ("minimum_film", "smallest film", "µm", None if least is None else 1e6 * least),
         ("maximum_pressure", "largest pressure", None, None),
     ):
         values, unit = readable(samples[name], units)

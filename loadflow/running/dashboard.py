@@ -39,6 +39,10 @@ _COLUMNS = {
 }  # fmt: skip
 
 
+_FILMS = {"journal": "", "thrust": ", axial"}
+"""Stages with films, and what tells their bearings apart: a collar stands where a journal does."""
+
+
 class RunView:
     """What a run has to show.
 
@@ -88,9 +92,13 @@ class RunView:
         ]
 
     def bearings(self) -> list[str]:
-        """Journal bearings with a film."""
-        first = next((c for c in self.cases if self.part("journal", c) is not None), None)
-        return [] if first is None else list(self.part("journal", first).children)
+        """Bearings with a film: journal bearings, then thrust bearings and pairs of cones."""
+        found = []
+        for stage, words in _FILMS.items():
+            first = next((c for c in self.cases if self.part(stage, c) is not None), None)
+            names = [] if first is None else self.part(stage, first).children
+            found += [f"{name}{words}" for name in names]
+        return found
 
     def verdicts(self) -> list[dict[str, str]]:
         """Verdicts of the run, a row each."""
@@ -126,16 +134,19 @@ class RunView:
         return self._of_film(case, bearing, film_series)
 
     def orbit_figure(self, case: str, bearing: str) -> Figure | None:
-        """Draw the shaft centre in the clearance circle."""
+        """Draw the shaft centre in the clearance circle; a thrust bearing has none."""
         return self._of_film(case, bearing, orbit)
 
     def _of_film(
         self, case: str, bearing: str, draw: Callable[[xr.Dataset], Figure]
     ) -> Figure | None:
-        found = self.part("journal", case)
-        if found is None or bearing not in found.children:
+        stage = next(s for s in reversed(_FILMS) if bearing.endswith(_FILMS[s]))
+        found, name = self.part(stage, case), bearing.removesuffix(_FILMS[stage])
+        if found is None or name not in found.children:
             return None
-        samples = found[bearing].to_dataset().load()
+        samples = found[name].to_dataset().load()
+        if draw is orbit and "eccentricity" not in samples:
+            return None
         return draw(samples) if bool((samples["converged"] > 0).any()) else None
 
     def rolling_figure(self, case: str) -> Figure | None:
@@ -175,7 +186,7 @@ def application(folder: str | Path) -> Callable[[], Any]:
         if view.bearings():
             bearing = pn.widgets.Select(name="bearing", options=view.bearings())
             films = pn.bind(lambda c, b: _drawn(pn, view.film_figure(c, b)), case, bearing)
-            circle = pn.bind(lambda c, b: _drawn(pn, view.orbit_figure(c, b)), case, bearing)
+            circle = pn.bind(lambda c, b: _circle(pn, view, c, b), case, bearing)
             rooms.append(("Film", pn.Column(bearing, films, circle)))
         if (view.folder / "rolling").is_dir():
             rolling = pn.bind(lambda c: _drawn(pn, view.rolling_figure(c)), case)
@@ -253,6 +264,13 @@ def _panel() -> Any:
     except ImportError as error:
         raise InputError("view needs the extra: pip install loadflow[view]") from error
     return panel
+
+
+def _circle(pn: Any, view: RunView, case: str, bearing: str) -> Any:
+    """The orbit of a journal bearing; nothing below the film of a bearing that has none."""
+    if bearing.endswith(_FILMS["thrust"]):
+        return pn.pane.Markdown("")
+    return _drawn(pn, view.orbit_figure(case, bearing))
 
 
 def _drawn(pn: Any, drawing: Figure | None) -> Any:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import InputError
+from loadflow.journal.critical import Critical
 from loadflow.planning.budget import Answer, answers, more_seeds
 from loadflow.planning.seeds_wanted import enough_seeds, of_run
 from loadflow.planning.verification import WARN
@@ -253,10 +255,10 @@ _HISTOGRAM = ("counts_full", "counts_reduced", "speed_edges", "load_edges")
 def _films(folder: Path, shown: list[str]) -> Iterator[Chart]:
     for k, name in enumerate(answered(folder, "journal", shown)):
         for bearing, data in read_part(folder, "journal", name, _FILM).items():
-            critical = data.attrs.get("critical_eccentricity_ratio")
-            level = None if critical is None else float(critical)
+            begins = Critical.told(data.attrs)
+            level = begins.ratio if math.isfinite(begins.ratio) else None
             said, count = f"{name}, bearing {bearing}", SAMPLES if k else CLOSE
-            yield film_chart(data, said, k > 0, count, level)
+            yield film_chart(data, said, k > 0, count, level, begins.film or None)
 
 
 def _orbits(folder: Path, shown: list[str]) -> Iterator[Picture]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, Self
 
@@ -19,6 +18,7 @@ from loadflow.journal import (
     Supply,
     Turbulence,
 )
+from loadflow.journal.critical import Critical
 from loadflow.journal.heat import FilmHeat, Heat
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import Verb, why_not
@@ -199,14 +199,28 @@ class Journal(Section, BaseModel):
         return self.shaft_roughness + self.shell_roughness
 
     @property
-    def critical_eccentricity_ratio(self) -> float:
-        """ε above which friction is mixed; infinite for bores whose gap closes at no certain ε."""
-        return math.inf if self.geometry.shape.segments else self.limits.eccentricity_ratio
+    def critical(self) -> Critical:
+        """Where friction becomes mixed: an ε, or a film where the gap closes at no certain one."""
+        return Critical.of(self.geometry, self.limits.eccentricity_ratio)
 
     @property
     def least_film(self) -> float:
-        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1)."""
-        return self.limits.least_film(self.contact_film)
+        """Smallest film allowed, m: as stated, or R_z + W_t of both surfaces and a margin (3.1).
+
+        In lobes and on pads that at which friction becomes mixed, if it is thicker.
+        """
+        return max(self.limits.least_film(self.contact_film), self.critical.film)
+
+    @property
+    def sommerfeld_range(self) -> tuple[float, float]:
+        """Least and largest So of the mean load; on tilting pads the least is 0 by default.
+
+        It keeps a bearing from running fast for its load [Jonuschies 2015, ch. 3.4], where a plain
+        bore, or one of lobes, drives the shaft into a whirl. Pads do not [Lund 1987].
+        """
+        low, high = self.limits.sommerfeld_range
+        tilting = any(part.tilting for part in self.geometry.shape.segments)
+        return (0.0 if tilting and "sommerfeld_range" not in self.limits.changed else low), high
 
     @property
     def in_motion(self) -> bool:

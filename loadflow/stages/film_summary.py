@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from loadflow.journal.critical import Critical
 from loadflow.journal.grid_bounds import UNRESOLVED
 from loadflow.quantities import GRID_ERROR, percent
 from loadflow.scene.cases import Case
@@ -118,8 +119,16 @@ def _mixed(samples: xr.Dataset) -> NDArray[np.bool_]:
     """Samples above E_krit of a film that knows no asperities, which share the load there."""
     if "contact_share" in samples or "eccentricity_ratio" not in samples:
         return np.zeros(samples.sizes["sample"], dtype=bool)
-    critical = samples.attrs.get("critical_eccentricity_ratio", np.inf)
-    return np.asarray(samples["eccentricity_ratio"].values > critical)
+    return _left(samples) < 1
+
+
+def _left(samples: xr.Dataset) -> NDArray[np.float64]:
+    """Film that is left over that at which friction becomes mixed; below 1 it is."""
+    values = (
+        samples[name].values if name in samples else 0.0
+        for name in ("eccentricity_ratio", "minimum_film")
+    )  # fmt: skip
+    return Critical.told(samples.attrs).left(*values)
 
 
 def judged(samples: xr.Dataset, of: str, turns: NDArray[np.bool_]) -> NDArray[np.float64]:
@@ -217,10 +226,11 @@ def _unresolved(table: xr.Dataset) -> list[str]:
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     """How long and how far the shaft turns in contact and above E_krit, as [Jonuschies 2015] asks.
 
-    Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit in a series that
-    begins on one side of it and ends on the other, a start or a stop; NaN in the others. While the
-    surfaces touch, the boundary friction of the whole load is lost, an upper bound, unless the film
-    knows its asperities; above E_krit without contact, the friction of the film.
+    Tables 5-21 and 5-22 with (5.2): the transition is where ε last crosses E_krit (in lobes and on
+    pads the smallest film that of it) in a series that begins on one side of it and ends on the
+    other, a start or a stop; NaN in the others. While the surfaces touch, the boundary friction of
+    the whole load is lost, an upper bound, unless the film knows its asperities; above E_krit
+    without contact, the friction of the film.
 
     A start lifts off, and a stop touches down, where contact changes for the last time. Where the
     shaft comes to a stand, `standstill_eccentricity_ratio` is the last ε in motion, and
@@ -233,13 +243,13 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     # each sample stands for `weight` steps of the full series
     weight = samples["weight"].values
     seconds = weight * (np.ptp(time) / max(weight.sum() - 1, 1))
-    critical = about.get("critical_eccentricity_ratio", np.inf)
     own = samples["eccentricity_ratio"].values if "eccentricity_ratio" in samples else 0.0
     ratio = np.where(touching, 1.0, own)
-    mixed = turns & (touching | (ratio > critical))
+    left = np.where(touching, 0.0, _left(samples))
+    mixed = turns & (touching | (left < 1))
     rubbing = about["boundary_friction"] * about["radius"] * samples["load"].values * speed
     lost = np.where(touching & ~known, rubbing, samples["friction_power"].values)
-    when, at = _transition(time, speed, ratio, critical)
+    when, at = _transition(time, speed, left)
     parted, landed = _changes(time, speed, touching)
     stood, last = _standing(time, turns, np.where(touching & ~known, np.nan, ratio))
     values: dict[str, tuple[Any, str, str]] = {
@@ -265,17 +275,15 @@ def mixed_friction(samples: xr.Dataset) -> xr.Dataset:
     )
 
 
-def _transition(
-    time: np.ndarray, speed: np.ndarray, ratio: np.ndarray, critical: float
-) -> tuple[float, float]:
+def _transition(time: np.ndarray, speed: np.ndarray, left: np.ndarray) -> tuple[float, float]:
     """Time and speed at which ε last crosses E_krit; NaN where it begins and ends on one side."""
-    known = np.flatnonzero(np.isfinite(ratio))
-    above = ratio[known] > critical
+    known = np.flatnonzero(np.isfinite(left))
+    above = left[known] < 1
     if known.size < 2 or above[0] == above[-1]:
         return np.nan, np.nan
     last = int(np.flatnonzero(above[1:] != above[:-1])[-1])
     i, j = known[last], known[last + 1]
-    share = (critical - ratio[i]) / (ratio[j] - ratio[i])
+    share = (1 - left[i]) / (left[j] - left[i])
     when, at = (float(x[i] + share * (x[j] - x[i])) for x in (time, speed))
     return when, at
 

@@ -338,7 +338,7 @@ def _placed(options: Journal, samples: xr.Dataset, eccentricity: np.ndarray) -> 
         motion=options.motion,
         radius=bearing.radius,
         boundary_friction=options.boundary_friction,
-        critical_eccentricity_ratio=options.critical_eccentricity_ratio,
+        **options.critical.attributes,
         radial_clearance=bearing.clearance,
         laminar=int(reynolds < critical_reynolds_number(bearing.relative_clearance)),
         largest_reynolds_number=reynolds,

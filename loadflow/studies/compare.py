@@ -63,6 +63,7 @@ from loadflow.studies.compare_words import (
 from loadflow.studies.rolling_warmth import warmest
 from loadflow.studies.run_lifetime import energy_per_year
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
+from loadflow.studies.verdicts import AT_NO_RATIO
 from loadflow.studies.wear_bands import with_error
 from loadflow.verdict import Verdict, from_dataset
 
@@ -180,10 +181,12 @@ def _numbers(
 
 
 def in_wide_bore(ratio: Number, scene: Scene) -> Number:
-    """An eccentricity ratio; above 1 in lobes or pads it says why there is a film none the less."""
-    shaped = ratio.value > 1 and scene.journal.at(ratio.place).geometry.shape.segments
+    """An eccentricity ratio; in lobes or pads it says why there is a film above 1, and no limit."""
+    if not ratio.place or not scene.journal.at(ratio.place).critical.film:
+        return ratio
     said = "over the least gap of the centred shaft: beside it, preloaded lobes and pads leave more"
-    return replace(ratio, note=_together(ratio.note, said)) if shaped else ratio
+    notes = ratio.note, said if ratio.value > 1 else "", f"no limit: {AT_NO_RATIO}"
+    return replace(ratio, note=_together(*notes))
 
 
 def _together(*notes: str) -> str:

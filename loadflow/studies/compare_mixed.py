@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.cube.hdf5 import read_groups
+from loadflow.journal.critical import Critical
 from loadflow.quantities import HOURS_PER_YEAR, percent
 from loadflow.stages.turning import runs_throughout, turning
 from loadflow.studies.compare_numbers import Finished, error_of, lifetime_mean
@@ -96,7 +97,7 @@ def _part(samples: xr.Dataset, rough: float, scale: float) -> float:
     touches = touches & ~apart if scale > 1 else touches | (film < rough)
     above = np.zeros(touches.shape, bool)
     if "eccentricity_ratio" in samples:
-        ratio = 1 - scale * (1 - samples["eccentricity_ratio"].values)
-        above = ratio > samples.attrs.get("critical_eccentricity_ratio", np.inf)
+        left = Critical.told(samples.attrs).left(samples["eccentricity_ratio"].values, film / scale)
+        above = scale * left < 1
     weight = samples["weight"].values
     return float(weight[turning(samples) & (touches | above)].sum() / weight.sum())

@@ -258,16 +258,15 @@ def _film_conditions(
         return
     ratio = float(answer.eccentricity_ratio[running].max())
     sums.extreme("eccentricity_ratio", ratio)
-    if math.isfinite(options.critical_eccentricity_ratio):
-        critical = options.critical_eccentricity_ratio
-        sums.conditions[f"eccentricity ratio in {place}"] = critical / ratio
+    if math.isfinite(options.critical.ratio):  # else its film is in the least one
+        sums.conditions[f"eccentricity ratio in {place}"] = options.critical.ratio / ratio
     number = answer.sommerfeld_number[running]
     some = samples.isel(sample=asked[running])
     radial = np.hypot(*some["force"].sel(axis=["y", "z"]).transpose("axis", "sample").values)
     per_load = float(np.median(number * np.abs(some["speed"].values) / np.maximum(radial, 1e-300)))
     means = samples["load_per_speed"].values
     means = per_load * means[np.isfinite(means)]
-    low, high = limits.sommerfeld_range
+    low, high = options.sommerfeld_range
     peak = max(float(number.max()), 1e-300)
     sums.conditions[f"largest Sommerfeld number in {place}"] = limits.sommerfeld_peak / peak
     if means.size:

@@ -40,7 +40,7 @@ def pressed(options: Journal, samples: xr.Dataset, answer: Any) -> np.ndarray:
     """
     counts = answer.converged
     if options.contact is None:
-        floats = answer.eccentricity_ratio <= options.critical_eccentricity_ratio
+        floats = options.critical.left(answer.eccentricity_ratio, answer.minimum_film) >= 1
         counts = counts & (samples["running"].values.astype(bool) | floats)
     return np.where(counts, answer.maximum_pressure, 0.0)
 

@@ -245,7 +245,9 @@ def _of_films(journal: Journal, films: Mapping[str, Films], seconds: float) -> d
         rough.append(film / options.contact_film)
         pressures.append(pressure)
         ratios.append(float(answer.eccentricity_ratio[found.judged].max(initial=0.0)))
-        formed = turning & (answer.eccentricity_ratio <= options.critical_eccentricity_ratio)
+        formed = turning & (
+            options.critical.left(answer.eccentricity_ratio, answer.minimum_film) >= 1
+        )
         mixed.append(float(weight.sum() - (weight * formed).sum()))
     return {
         "minimum_film": min(thinnest),

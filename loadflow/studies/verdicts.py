@@ -9,25 +9,24 @@ import numpy as np
 import xarray as xr
 
 from loadflow.quantities import CELSIUS, load_cases
-from loadflow.rolling.rating.static import (
-    HOURS_20_YEARS,
-    LIFE_SOURCE,
-    STATIC_RATING,
-    STATIC_SOURCE,
-)
 from loadflow.scene.journal import Journal
-from loadflow.scene.limits import FilmLimits, JournalLimits, RollingLimits
+from loadflow.scene.limits import FilmLimits, JournalLimits
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.turning import runs_throughout
+from loadflow.studies.rolling_verdicts import of_rolling
 from loadflow.studies.uncarried import SLIGHT, has_collar, uncarried
+from loadflow.studies.verdict_parts import STATED, answered, source_of, worst_of
 from loadflow.verdict import Verdict
-from loadflow.wind.cases import row_of
 
 Tables = Mapping[str, xr.Dataset]
 
 _ISOTHERMAL = "temperature not computed: the film has one viscosity"
-_STATED = "as the scene states"
+_AT_RATIO = "(1 − E_krit) c, the film at E_krit [Jonuschies 2015, (5.1), (5.2)]"
+_NO_WHIRL = "tilting pads do not whirl, however little they carry [Lund 1987]"
+
+AT_NO_RATIO = "its gap closes at no certain ε; the film at E_krit limits the smallest film"
+"""Why bores of arcs, lobes and pads have no largest ε."""
 
 
 def verdicts(
@@ -67,7 +66,7 @@ def verdicts(
         for name in carriers:
             found += _of_pads(scene.thrust.bearings[name], name, tables["thrust"].load())
     if "rolling" in tables:
-        found += _of_rolling(scene, tables["rolling"].load(), lifetime)
+        found += of_rolling(scene, tables["rolling"].load(), lifetime)
     return [*found, *uncarried(scene, tables)]
 
 
@@ -78,8 +77,10 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
     """Verdicts on one journal bearing: production first, then what holds in every load case."""
     subject, options = f"journal {name}", scene.journal.at(name)
     limits = options.limits
-    yield _answered(subject, table)
+    yield answered(subject, table)
     mixed = f"ε above {limits.eccentricity_ratio:g}"
+    if options.critical.film:
+        mixed = f"film below {1e6 * options.critical.film:.3g} µm"
     yield from _in_contact(subject, table, limits, mixed, "journal")
     production = _production(table)
     if production.sizes["case"]:
@@ -89,33 +90,15 @@ def _of_journal(scene: Scene, name: str, table: xr.Dataset) -> Iterator[Verdict]
     if "standing_load" in table:
         yield from _of_standing(limits, subject, table, area)
     if limits.specific_load is not None:
-        value, case, _ = _worst(table, "largest_load", "most")
+        value, case, _ = worst_of(table, "largest_load", "most")
         yield Verdict(
             subject, "specific load F/(B D)", value / area, limits.specific_load, "at most", "Pa",
-            _STATED, case, key="journal.limits.specific_load",
+            STATED, case, key="journal.limits.specific_load",
         )  # fmt: skip
     if options.heat is not None:
         yield _warmth(subject, table, limits)
     if not has_collar(scene, name) and (thrust := _thrust_on_journal(subject, table)):
         yield thrust
-
-
-def _answered(subject: str, table: xr.Dataset) -> Verdict:
-    """No sample may lack an answer, as it would be missing in the extremes."""
-    count = table["not_converged"]
-    worst = table["case"].values[int(np.argmax(count.values))]
-    total = float(count.sum())
-    return Verdict(
-        subject,
-        "samples not answered",
-        total,
-        0.0,
-        "at most",
-        "samples",
-        "extremes need every sample",
-        str(worst) if total else "",
-        note=f"not answered: {total:.0f} samples; the extremes lack them" if total else "",
-    )
 
 
 def _in_contact(
@@ -139,7 +122,7 @@ def _contact(
     subject: str, table: xr.Dataset, situation: str, limit: float | None, mixed: str, section: str
 ) -> Verdict:
     """How long the surfaces touch while the shaft turns, and what that means in mixed friction."""
-    value, case, _ = _worst(table, "contact_time", "most")
+    value, case, _ = worst_of(table, "contact_time", "most")
     row = table.sel(case=case)
     turns, energy, seconds = (
         float(row[f"mixed_friction_{what}"]) for what in ("revolutions", "energy", "time")
@@ -168,17 +151,19 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
     limits, contact = options.limits, table["in_contact"] > 0
     touching = f"in contact in {load_cases(int(contact.sum()))}" if contact.any() else ""
     ratio = table.assign(largest_eccentricity_ratio=_where(table, "largest_eccentricity_ratio", 1))
-    value, case, time = _worst(ratio, "largest_eccentricity_ratio", "most")
-    critical = options.critical_eccentricity_ratio
+    value, case, time = worst_of(ratio, "largest_eccentricity_ratio", "most")
+    critical = options.critical
     yield Verdict(
-        subject, "eccentricity ratio ε", value, critical if np.isfinite(critical) else np.nan,
+        subject, "eccentricity ratio ε", value, np.nan if critical.film else critical.ratio,
         "at most",
-        source=_source(limits, "eccentricity_ratio", "E_krit [Jonuschies 2015, (5.2)]"),
+        source=AT_NO_RATIO
+        if critical.film
+        else source_of(limits, "eccentricity_ratio", "E_krit [Jonuschies 2015, (5.2)]"),
         case=case, time=time, note=touching, key="journal.limits.eccentricity_ratio",
     )  # fmt: skip
     yield _thinnest(options, subject, table, touching, "journal")
     rule = "[Jonuschies 2015, ch. 3.4]"
-    low, high = limits.sommerfeld_range
+    low, high = options.sommerfeld_range
     senses: tuple[
         tuple[float, Literal["at least", "at most"], Literal["least", "most"], str], ...
     ] = (
@@ -186,19 +171,20 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
         (high, "at most", "most", "largest"),
     )
     for limit, sense, which, told in senses:
-        value, case, _ = _worst(table, "mean_sommerfeld_number", which)
+        value, case, _ = worst_of(table, "mean_sommerfeld_number", which)
+        source = source_of(limits, "sommerfeld_range", f"normal operation, {rule}")
         yield Verdict(
-            subject, f"{told} mean Sommerfeld number", value, limit, sense,
-            source=_source(limits, "sommerfeld_range", f"normal operation, {rule}"), case=case,
+            subject, f"{told} mean Sommerfeld number", value, limit or np.nan, sense,
+            source=source if limit else _NO_WHIRL, case=case,
             key="journal.limits.sommerfeld_range",
         )  # fmt: skip
     peak = table.assign(
         largest_sommerfeld_number=_where(table, "largest_sommerfeld_number", np.inf)
     )
-    value, case, time = _worst(peak, "largest_sommerfeld_number", "most")
+    value, case, time = worst_of(peak, "largest_sommerfeld_number", "most")
     yield Verdict(
         subject, "largest Sommerfeld number", value, limits.sommerfeld_peak, "at most",
-        source=_source(limits, "sommerfeld_peak", f"brief peaks, {rule}"), case=case, time=time,
+        source=source_of(limits, "sommerfeld_peak", f"brief peaks, {rule}"), case=case, time=time,
         note=touching, key="journal.limits.sommerfeld_peak",
     )  # fmt: skip
 
@@ -207,17 +193,20 @@ def _thinnest(
     options: Journal | AnyAxial, subject: str, table: xr.Dataset, touching: str, section: str
 ) -> Verdict:
     """Smallest film in power production; a contact breaks it."""
-    limits = options.limits
+    limits, least = options.limits, options.least_film
     film = table.assign(smallest_film=_where(table, "smallest_film", 0))
-    value, case, time = _worst(film, "smallest_film", "least")
-    parts = (
-        f"R_z {1e6 * options.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
-        f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
-    )
+    value, case, time = worst_of(film, "smallest_film", "least")
+    source, key = STATED, "minimum_film"
+    if least > limits.least_film(options.contact_film):  # E_krit asks for more
+        source, key = _AT_RATIO, "eccentricity_ratio"
+    elif limits.minimum_film is None:
+        source = (
+            f"R_z {1e6 * options.contact_film:.3g} + waviness {1e6 * limits.waviness:.3g} + "
+            f"margin {1e6 * limits.margin:.3g} µm, [Jonuschies 2015, (3.1)]"
+        )
     return Verdict(
-        subject, "smallest film", value, options.least_film, "at least", "m",
-        parts if limits.minimum_film is None else _STATED, case, time, touching,
-        f"{section}.limits.minimum_film",
+        subject, "smallest film", value, least, "at least", "m", source, case, time, touching,
+        f"{section}.limits.{key}",
     )  # fmt: skip
 
 
@@ -230,7 +219,7 @@ def _pressure(
     limits: FilmLimits, subject: str, table: xr.Dataset, section: str
 ) -> Iterator[Verdict]:
     """Largest film pressure of a shaft that turns against the material at its temperature."""
-    value, case, time = _worst(table, "largest_pressure", "most")
+    value, case, time = worst_of(table, "largest_pressure", "most")
     if case:
         note = _ISOTHERMAL if np.isnan(warm_in(table, case)) else ""
         yield _of_material(
@@ -246,7 +235,7 @@ def _of_standing(
     It rests on no film; the largest pressure of its contact is one of elastic bodies, and p̄_lim of
     ISO 7902-3 is one of F/(B D).
     """
-    value, case, time = _worst(table, "standing_load", "most")
+    value, case, time = worst_of(table, "standing_load", "most")
     if case:
         note = "the shaft stands: no film pressure is held against the material"
         what = "specific load F/(B D) at standstill"
@@ -268,25 +257,25 @@ def _of_material(
     points = ", ".join(f"{p / 1e6:g} MPa at {t - CELSIUS:.0f} °C" for t, p in limits.material)
     return Verdict(
         subject, what, value, limits.pressure_at(warm_in(table, case)), "at most", "Pa",
-        _source(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case, time,
-        note, f"{section}.limits.material",
+        source_of(limits, "material", f"white metal, {points} [Jonuschies 2015, ch. 3]"), case,
+        time, note, f"{section}.limits.material",
     )  # fmt: skip
 
 
 def _warmth(subject: str, table: xr.Dataset, limits: JournalLimits) -> Verdict:
-    value, case, time = _worst(table, "largest_temperature", "most")
+    value, case, time = worst_of(table, "largest_temperature", "most")
     by_oil = f"oil {limits.oil}, {limits.oil_hours:g} h [Jonuschies 2015, Table 3-2]"
     stated = limits.temperature is not None
     return Verdict(
         subject, "effective temperature of the film", value, limits.oil_temperature, "at most",
-        "K", _STATED if stated else by_oil, case, time,
+        "K", STATED if stated else by_oil, case, time,
         key="journal.limits." + ("temperature" if stated else "oil"),
     )  # fmt: skip
 
 
 def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
     """Force along the shaft that its suspension puts on a bearing which cannot carry any."""
-    value, case, time = _worst(table, "largest_axial_load", "most")
+    value, case, time = worst_of(table, "largest_axial_load", "most")
     if not value > SLIGHT * float(table["largest_load"].max()):
         return None
     return Verdict(
@@ -310,7 +299,7 @@ def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
 def _of_pads(part: AnyAxial, name: str, table: xr.Dataset) -> Iterator[Verdict]:
     """Verdicts on the films of one bearing that carries the force along the shaft."""
     subject, own = f"{part.kind} {name}", table.sel(bearing=name)
-    yield _answered(subject, own)
+    yield answered(subject, own)
     yield from _in_contact(subject, own, part.limits, "in contact", "thrust")
     production = _production(own)
     if production.sizes["case"]:
@@ -318,130 +307,9 @@ def _of_pads(part: AnyAxial, name: str, table: xr.Dataset) -> Iterator[Verdict]:
         note = f"in contact in {load_cases(int(touching.sum()))}" if touching.any() else ""
         yield _thinnest(part, subject, production, note, "thrust")
     yield from _pressure(part.limits, subject, own, "thrust")
-    value, case, time = _worst(own, "largest_axial_load", "most")
+    value, case, time = worst_of(own, "largest_axial_load", "most")
     yield Verdict(
         subject, "force along the shaft without a bearing", 0.0, 0.0, "at most", "N",
         "equilibrium of the shaft", case, time,
         f"{value / 1e3:.0f} kN along the shaft is carried by {name}, a {part.words}",
     )  # fmt: skip
-
-
-# --- rolling bearings -------------------------------------------------------------------------
-
-
-def _of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) -> Iterator[Verdict]:
-    for name, bearing in scene.rolling.geometries.items():
-        part, subject = table.sel(bearing=name), f"rolling {name}"
-        yield _static(scene.rolling.bearings[name].limits, subject, part)
-        yield from _lives(scene, subject, lifetime, name, part)
-        value, case, _ = _worst(part, "bearing_truncated", "most")
-        if case:
-            yield Verdict(
-                subject, "time with a contact cut off at a shoulder", value, 0.0, "at most",
-                source="the Hertzian contact must lie within the raceway",
-                case=case if value else "",
-                note="share of the time of the load case",
-            )  # fmt: skip
-        value, case, _ = _worst(part, "bearing_clamping", "least")
-        if case:
-            yield Verdict(
-                subject, "share of the preload that clamps the bolts of its rings", value, 0.0,
-                "at least", source="VDI 2230: joints must not open", case=case,
-            )  # fmt: skip
-        value, case, _ = _worst(part, "bearing_axial_force", "most")
-        if value > SLIGHT * float(part["bearing_force"].max()):
-            carried = bearing.takes_thrust
-            axis = "the shaft" if scene.rolling.bearings[name].oscillation is None else "its axis"
-            force = f"{value / 1e3:.0f} kN along {axis}"
-            yield Verdict(
-                subject, f"force along {axis} without a bearing", 0.0 if carried else value, 0.0,
-                "at most", "N", "equilibrium of the shaft", case,
-                note=f"{force} is carried by {name}, a {bearing.words}" if carried
-                else f"none: {force} is carried by no bearing of this arrangement",
-            )  # fmt: skip
-    if table.sizes["bearing"] > 1:
-        yield from _lives(scene, "rolling, all as a system", lifetime, None, table)
-    if "not_converged" in table:
-        yield _answered(f"rolling {table['bearing'].values[0]}", table)
-
-
-def _static(limits: RollingLimits, subject: str, table: xr.Dataset) -> Verdict:
-    """Static rating over the design load: loads with the factor of their load case in them."""
-    rows = map(row_of, table["dlc"].values.tolist())
-    ultimate = np.array([row is None or row.kind == "U" for row in rows])
-    judged = table.isel(case=ultimate) if ultimate.any() else table
-    value, case, time = _worst(judged, "bearing_design_safety", "least")
-    row = judged.sel(case=case) if case else judged.isel(case=0)
-    dlc, factor = str(row["dlc"].item()), float(row["bearing_load_factor"])
-    note = f"γ_f {factor:g}; {float(row['bearing_static_safety']):.4g} under characteristic loads"
-    of_table = row_of(dlc)
-    if of_table is not None and of_table.safety == "extrapolated":
-        note += "; the normal factor, as 1.1 is not extrapolated (1.25 if it were)"
-    if not ultimate.any():
-        note += "; no load case of ultimate loads in this run"
-    elif of_table is None:
-        note += f"; IEC 61400-1 has no load case {dlc!r}"
-    limit = limits.static_safety
-    return Verdict(
-        subject, "static rating over the design load", value, limit, "at least",
-        source=STATIC_SOURCE if limit == STATIC_RATING else _STATED, case=case, time=time,
-        note=note, key="rolling.limits.static_safety",
-    )  # fmt: skip
-
-
-def _lives(
-    scene: Scene, subject: str, lifetime: xr.Dataset | None, name: str | None, table: xr.Dataset
-) -> Iterator[Verdict]:
-    """Basic and modified life over all load cases, of one bearing or (`name` None) of all."""
-    part = scene.rolling if name is None else scene.rolling.bearings[name]
-    limit = part.limits.life
-    asked = [part] if name else [*scene.rolling.bearings.values()]
-    swings = any(one.oscillation is not None for one in asked)
-    source = LIFE_SOURCE if limit == HOURS_20_YEARS else _STATED
-    for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
-        if kind and swings:  # ISO 281 has no modified life of a bearing that swings
-            continue
-        note, value = "no load case has a share of the lifetime", np.nan
-        if lifetime is not None:
-            note = f"over {load_cases(table.sizes['case'])} by their share of the lifetime"
-            if name is None:
-                value = float(lifetime[f"system_{kind}life_hours"])
-            else:
-                value = float(lifetime[f"{kind}life_hours"].sel(rolling=name))
-        if kind:
-            friction = scene.friction
-            note += f"; {friction.lubricant}, {_oil(table)}, {friction.cleanliness}"
-            if (thin := float(table["bearing_thin_share"].max())) > 0:
-                note += f"; κ < 0.1 in up to {100 * thin:.3g} % of the revolutions, a_ISO 0.1 there"
-        yield Verdict(
-            subject, what, value, limit, "at least", "h", source, note=note,
-            key="rolling.limits.life",
-        )  # fmt: skip
-
-
-def _oil(table: xr.Dataset) -> str:
-    """Temperatures of rolling bearings over the load cases."""
-    warm = table["bearing_temperature"].values - CELSIUS
-    low, high = f"{warm.min():.0f}", f"{warm.max():.0f}"
-    return f"{low} °C" if low == high else f"{low} … {high} °C by their heat balance"
-
-
-# --- both -------------------------------------------------------------------------------------
-
-
-def _worst(
-    table: xr.Dataset, name: str, which: Literal["most", "least"]
-) -> tuple[float, str, float]:
-    """Extreme over the cases, its case, and its time there; NaN where none has a value."""
-    values = table[name].values.astype(float)
-    if np.isnan(values).all():
-        return np.nan, "", np.nan
-    k = int(np.nanargmax(values) if which == "most" else np.nanargmin(values))
-    times = {"bearing_design_safety": "bearing_design_time"}.get(name, f"{name}_time")
-    time = float(table[times].values[k]) if times in table else np.nan
-    return float(values[k]), str(table["case"].values[k]), time
-
-
-def _source(limits: FilmLimits, key: str, default: str) -> str:
-    """Where a limit comes from: its default's source, or the scene."""
-    return _STATED if key in limits.changed else default

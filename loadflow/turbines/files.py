@@ -87,13 +87,18 @@ def load_turbine(turbine: str | Path | Turbine) -> Turbine:
     return _unchanged(path.absolute(), _stamps(path))
 
 
+SCALED_POWERS = 5e4, 5e7
+"""Rated powers, W, to which turbines are scaled: from small ones, whose control and structure are
+others, to twice the largest that are built."""
+
+
 def scaled_name(turbine: str | Path) -> tuple[str, float | None]:
     """Name of a turbine and the power (W) that it is scaled to; None if it is not.
 
     Raises
     ------
     InputError
-        What stands behind ``@`` is no power.
+        What stands behind ``@`` is no power, or none of a wind turbine, `SCALED_POWERS`.
 
     Examples
     --------
@@ -112,6 +117,12 @@ def scaled_name(turbine: str | Path) -> tuple[str, float | None]:
     if not name or not (math.isfinite(number) and number > 0):
         raise InputError(
             f"turbine {str(turbine)!r}: a rated power in W is needed behind @, such as nrel-5mw@8e6"
+        )
+    least, most = SCALED_POWERS
+    if not least <= number <= most:
+        raise InputError(
+            f"turbine {str(turbine)!r}: the rated power behind @ is {number:g} W, must be "
+            f"{least:.0e} … {most:.0e} W, such as {name}@8e6"
         )
     return base, number
 

@@ -15,7 +15,7 @@ from loadflow.studies.seed_intervals import Groups
 
 SCENE = make_scene({"name": "s", "bearings": "journal-cylindrical", "shaft": {"two_point": {}}})
 CLEARANCE = SCENE.journal.at("N").geometry.clearance / 2
-LIMIT = SCENE.journal.at("N").critical_eccentricity_ratio
+LIMIT = SCENE.journal.at("N").critical.ratio
 
 
 def series(ratio):

@@ -7,7 +7,8 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.journal import Groove, Lobes, Supply
+from loadflow.journal import Groove, JournalBearing, Lobes, Supply
+from loadflow.journal.critical import Critical
 from loadflow.journal.transition import load_capacity
 from loadflow.readers.names import SITUATIONS, label_from_name
 from loadflow.scene.cases import Case
@@ -170,6 +171,26 @@ def test_a_film_that_outlasts_the_stop_is_timed():
     assert told["film_after_stop"] == pytest.approx(2.5)
     assert told["touch_down_time"] == 6.0
     assert told["mixed_friction_time"] == 0.0
+
+
+def test_a_start_in_lobes_is_mixed_up_to_the_film_of_the_critical_eccentricity():
+    lemon = JournalBearing(1.4, 1.4, 1e-3, shape=Lobes(2, preload=0.3))
+    begins = Critical.of(lemon, 0.95)
+    film = begins.film * np.array([0.1, 0.5, 0.9, 1.3, 2.0, 3.0])
+    data = {
+        "time": np.arange(6.0), "speed": np.full(6, 0.3), "weight": np.ones(6),
+        "load": np.full(6, LOAD), "in_contact": np.zeros(6, bool), "converged": np.ones(6, bool),
+        "residual": np.zeros(6), "friction_power": np.full(6, 10.0),
+        "eccentricity_ratio": np.full(6, 1.1), "minimum_film": film,
+        "maximum_pressure": 1e6 * np.array([11.0, 9.0, 7.0, 4.0, 3.0, 2.0]),
+    }  # fmt: skip
+    about = begins.attributes | {"boundary_friction": 0.1, "radius": 0.7}
+    samples = xr.Dataset({k: ("sample", v) for k, v in data.items()}, attrs=about)
+    told = mixed_friction(samples)
+    assert told["mixed_friction_time"] == pytest.approx(3.0)
+    assert told["transition_time"] == pytest.approx(2.25)  # 0.9 … 1.3 of the film
+    assert extremes(samples, starts=True)["largest_pressure"] == 4e6
+    assert extremes(samples)["largest_pressure"] == 11e6  # nothing is left out of production
 
 
 def test_pressures_are_those_of_a_shaft_that_turns_and_one_that_stands_has_a_load():

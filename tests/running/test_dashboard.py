@@ -9,6 +9,7 @@ from importlib.util import find_spec
 
 import numpy as np
 import pytest
+import xarray as xr
 from synthetic import cube_file
 
 from loadflow.errors import InputError
@@ -66,6 +67,27 @@ def test_it_draws_the_numbers_of_the_run(finished):
     assert view.film_figure(case, "N2") is None
     forces = view.rolling_figure(case).axes[0].lines[0].get_ydata()
     assert np.allclose(forces, view.part("rolling", case)["maximum_force"] / 1e3)
+
+
+def test_it_draws_the_film_of_a_collar_beside_that_of_a_journal_at_one_place(finished, tmp_path):
+    folder = tmp_path / "with a collar"
+    shutil.copytree(finished.path, folder)
+    case = RunView(folder).cases[0]
+    film = RunView(folder).part("journal", case)["N"].to_dataset().load()
+    collar = film.drop_vars(["eccentricity", "eccentricity_ratio"])
+    collar = collar.assign(minimum_film=2 * film["minimum_film"])
+    (folder / "thrust").mkdir()
+    part = xr.DataTree.from_dict({"N": collar})
+    part.to_netcdf(folder / "thrust" / f"{case}.h5", engine="h5netcdf")
+    view = RunView(folder)
+    assert view.bearings() == ["N", "N, axial"]
+    ratio, *_ = view.film_figure(case, "N").axes
+    assert "ε" in ratio.get_title() or "eccentricity" in ratio.get_title()
+    thickness, pressure = view.film_figure(case, "N, axial").axes
+    drawn = thickness.lines[0].get_ydata()
+    assert np.allclose(drawn, 2e6 * film["minimum_film"], equal_nan=True)
+    assert "pressure" in pressure.get_title()
+    assert view.orbit_figure(case, "N, axial") is None
 
 
 def test_a_folder_that_is_no_run_is_refused(tmp_path):

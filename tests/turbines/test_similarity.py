@@ -62,6 +62,14 @@ def test_a_size_that_is_none_is_refused(name):
         load_turbine(name)
 
 
+@pytest.mark.parametrize("power", ["7", "8", "5000", "1e9"])
+def test_a_power_that_no_wind_turbine_has_is_refused_with_those_that_are_scaled(power):
+    with pytest.raises(InputError, match=r" W, must be 5e\+04 … 5e\+07 W, such as nrel"):
+        load_turbine(f"nrel-5mw@{power}")
+    with pytest.raises(InputError, match="must be 5e"):
+        make_scene({"name": "megawatts", "turbine": {"name": f"nrel-5mw@{power}"}})
+
+
 @pytest.mark.parametrize("factor", [0.0, -1.0, np.nan, np.inf])
 def test_a_factor_that_is_none_is_refused(factor):
     for work in (lambda: scaled(load_turbine("nrel-5mw"), factor),
