@@ -235,6 +235,17 @@ def test_a_collar_beside_a_journal_bearing_carries_without_being_asked(cube, tmp
     assert carries_thrust(scene, tables(done)) == f"N2, up to {largest / 1e3:.0f} kN"
 
 
+def test_extreme_load_cases_alone_ask_for_no_life(run):
+    def asked(dlc):
+        rolling = tables(run)["rolling"]
+        table = rolling.assign_coords(dlc=("case", [dlc] * rolling.sizes["case"]))
+        found = verdicts(scene_of("unused.h5"), {"rolling": table}, None)
+        return [v.answer for v in found if "life L10" in v.quantity]
+
+    assert asked("1.4") == []
+    assert set(asked("1.2")) == {"not answered"}  # of fatigue loads without a share they lack
+
+
 def test_limits_are_those_of_the_scene_and_say_so(run):
     for quantity, limits, limit in (
         ("eccentricity ratio ε", {"eccentricity_ratio": 0.3}, 0.3),

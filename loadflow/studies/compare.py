@@ -38,6 +38,7 @@ from loadflow.studies.compare_numbers import (
     of_one_seed,
     seeds_of,
     shares_of,
+    without_shares,
 )
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES
@@ -123,6 +124,7 @@ def judged(run: Finished, folder: Path) -> Judged:
     verdicts = tuple(from_dataset(run.tables["verdicts"])) if "verdicts" in run.tables else ()
     margin = margin_of(run.scene, run.folder, run.tables, verdicts)
     numbers = without(run.rooms) | dict(_numbers(run, verdicts, margin))
+    numbers = without_shares(run, numbers)
     numbers = {key: of_one_seed(run, number) for key, number in numbers.items()}
     return Judged(
         name=run.name,

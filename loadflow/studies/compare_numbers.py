@@ -19,6 +19,12 @@ from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.verdict import Verdict
 
+NO_SHARE = "no load case of this run has a share of the lifetime"
+"""Why a comparison on extreme load cases alone tells nothing of a life or a year."""
+
+_OF_A_LIFE = ("energy", "mixed_time", "modified_life", "rating_life", "standstill")
+_MEANS = ("friction", "oil_flow", "pump", "friction_torque")
+
 Sense = Literal["most", "least"]
 
 
@@ -159,6 +165,27 @@ def error_of(run: Finished, result: str, quantity: str) -> float:
     """Error by models that the plan expects, as a share; NaN where it was not measured."""
     found = run.manifest.get("expected_errors", {}).get(result, {}).get(quantity)
     return float(found) if isinstance(found, int | float) else math.nan
+
+
+def without_shares(run: Finished, numbers: Mapping[str, Number]) -> dict[str, Number]:
+    """The numbers of a run, without those of a life or a year where no load case has a share of it.
+
+    Means are then those over all load cases, each as long as another, and say so.
+    """
+    rooms = ("journal", "thrust", "rolling")
+    table = next(run.tables[room] for room in rooms if room in run.tables)
+    if known_shares(run.tables, table) is not None:
+        return dict(numbers)
+    found = dict(numbers)
+    for key, number in numbers.items():
+        if number.note.startswith("n/a"):
+            continue
+        if key in _OF_A_LIFE:
+            found[key] = Number(math.nan, number.unit, note=f"n/a: {NO_SHARE}")
+        elif key in _MEANS:
+            note = f"mean of all load cases alike, as {NO_SHARE}"
+            found[key] = replace(number, note="; ".join(filter(None, (number.note, note))))
+    return found
 
 
 def shares_of(run: Finished, table: xr.Dataset) -> np.ndarray:

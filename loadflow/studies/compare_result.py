@@ -143,10 +143,14 @@ class Judged:
         return found
 
     @property
-    def rank(self) -> tuple[bool, bool, float]:
-        """Its place among others: what holds without reservations first, then by energy lost."""
-        lost = self.numbers["energy"].value
-        return not self.holds, bool(self.reservations), math.inf if math.isnan(lost) else lost
+    def rank(self) -> tuple[bool, bool, float, float]:
+        """Its place among others: what holds without reservations first, then by energy lost.
+
+        Where the loads tell of no year, by how much they may grow.
+        """
+        lost, factor = (self.numbers[name].value for name in ("energy", "load_factor"))
+        lost, factor = (math.inf if math.isnan(lost) else lost), (factor if factor > 0 else 0.0)
+        return not self.holds, bool(self.reservations), lost, -factor
 
     def as_dict(self) -> dict[str, Any]:
         """All of it in plain values for JSON; what is not known is None."""

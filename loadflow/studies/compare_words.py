@@ -91,8 +91,11 @@ def _named(one: Judged) -> str:
 
 def _told(one: Judged, least: bool = False) -> str:
     energy, factor = one.numbers["energy"].value, one.numbers["load_factor"].value
-    lost = f"{three_digits(energy)} MWh a year" if math.isfinite(energy) else "no one knows what"
-    if least and math.isfinite(energy):
+    if not math.isfinite(energy):
+        most = "most, " if least else ""
+        return f"{_named(one)} have {most}{three_digits(factor)} times these loads to their limits"
+    lost = f"{three_digits(energy)} MWh a year"
+    if least:
         lost = f"least, {lost}"
     if UNCARRIED in one.reservations:
         lost += " without that of a thrust bearing, which they need"

@@ -51,7 +51,13 @@ from loadflow.studies import compare_risks
 from loadflow.studies.compare import _oil, in_wide_bore, judged
 from loadflow.studies.compare_friction import error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed
+from loadflow.studies.compare_numbers import (
+    NO_SHARE,
+    Finished,
+    extreme,
+    of_one_seed,
+    without_shares,
+)
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import (
@@ -854,6 +860,40 @@ def test_samples_that_are_solved_as_they_are_extreme_stand_for_no_time(tmp_path)
     assert some.sizes["sample"] == 49
     assert some["weight"].values[some["time"].values == least / 10].tolist() == [0.0]
     assert (some["weight"].values > 0).sum() == 48
+
+
+def test_extreme_load_cases_alone_tell_nothing_of_a_year():
+    table = xr.Dataset(coords={"case": ["a", "b"]})
+    shares = xr.Dataset({"share": ("case", [0.3, 0.7])}, {"case": ["a", "b"]})
+    numbers = {
+        "energy": Number(6.2, "MWh"), "rating_life": Number(190.0, "years", limit=20.0, holds=True),
+        "friction": Number(0.7, "kW", note="cold"), "film_pressure": Number(5.0, "MPa"),
+        "mixed_time": Number(math.nan, "h", note="n/a: no film bearing"),
+    }  # fmt: skip
+    known = Finished("a", "", "", None, {"rolling": table, "lifetime": shares}, {}, None)
+    assert without_shares(known, numbers) == numbers
+    told = without_shares(replace(known, tables={"rolling": table}), numbers)
+    assert math.isnan(told["energy"].value)
+    assert told["rating_life"].holds is None
+    assert told["rating_life"].note == f"n/a: {NO_SHARE}"
+    assert told["mixed_time"] == numbers["mixed_time"]
+    assert told["film_pressure"] == numbers["film_pressure"]
+    assert (told["friction"].value, told["friction"].note) == (
+        0.7, f"cold; mean of all load cases alike, as {NO_SHARE}",
+    )  # fmt: skip
+
+
+def test_without_a_year_candidates_rank_by_how_much_loads_may_grow():
+    of_year = {"energy": Number(math.nan, "MWh")}
+    near, far = (
+        judged_of(name, 0.0, numbers=of_year | {"load_factor": Number(factor, "×")})
+        for name, factor in (("near", 1.2), ("far", 2.76))
+    )
+    order = sorted([near, far], key=lambda one: one.rank)
+    assert [one.name for one in order] == ["far", "near"]
+    assert conclusion(order).endswith(
+        "rolling bearings (far) have most, 2.76 times these loads to their limits."
+    )
 
 
 LIGHT = {"minimum_load": Number(0.68, "%", limit=2.0, holds=False)}
