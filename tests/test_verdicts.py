@@ -314,6 +314,7 @@ def test_tilting_pads_have_no_least_sommerfeld_number_unless_it_is_stated(run):
     assert least(PADS).answer == "no limit"
     assert "do not whirl" in least(PADS).source
     assert least(PADS, sommerfeld_range=(0.9, 6.0)).limit == 0.9
+    assert "whirl" not in least(BORE, sommerfeld_range=(0.0, 6.0)).source
 
 
 def test_the_material_carries_less_the_warmer_it_is():

@@ -32,7 +32,7 @@ class JournalGeometry:
     Raises
     ------
     loadflow.errors.InputError
-        A length outside 0 … 100 m, ψ outside 0 … 0.1.
+        A diameter outside 0 … 100 m, a width that is not positive, ψ outside 0 … 0.1.
 
     Examples
     --------
@@ -45,14 +45,15 @@ class JournalGeometry:
     """
 
     diameter: Annotated[float, Gt(0), Lt(100.0)]
-    width: Annotated[float, Gt(0), Lt(100.0)]
+    width: Annotated[float, Gt(0)]
     relative_clearance: Annotated[float, Gt(0), Lt(0.1)]
     shape: Shape = CYLINDER
     relief: tuple[Relief, ...] = ()
 
     def __post_init__(self) -> None:
-        for name, length in (("diameter", self.diameter), ("width", self.width)):
-            require(0 < length < 100.0, name, length, "0 … 100, in m")  # more was meant in mm
+        # more was meant in mm; but wide bearings of a metre stand for infinitely wide ones
+        require(0 < self.diameter < 100.0, "diameter", self.diameter, "0 … 100, in m")
+        require(0 < self.width < np.inf, "width", self.width, "> 0, finite")
         psi = self.relative_clearance
         require(0 < psi < 0.1, "relative_clearance", psi, "0 … 0.1")
         object.__setattr__(self, "relief", tuple(self.relief))

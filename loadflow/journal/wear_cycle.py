@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Annotated, Any
 
@@ -9,7 +10,7 @@ import numpy as np
 from annotated_types import Ge
 from numpy.typing import NDArray
 
-from loadflow.errors import InputError, SolverError
+from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.film_model import Film
 from loadflow.numerics.convergence import Control
@@ -37,7 +38,8 @@ class Cycle:
         How often it happens in the whole time that is looked at.
     in_motion : bool
         Follow the shaft through time, squeeze included, in up to 16 steps a sample, until its
-        friction energy is known to 1 %; else each sample is an equilibrium.
+        asperities are known to rub to 1 % at the samples (a warning tells where they are not);
+        what touches between two samples is not seen. Else each sample is an equilibrium.
     tilt, bend : array (n, 2), optional
         How the shaft lies, rad and 1/m, as in `JournalBearing.orbit`.
     name : str
@@ -151,6 +153,13 @@ def _path(
         before, energy = energy, float(cycle.seconds @ found["contact_power"])
         if abs(energy - before) <= 3.0 * _SETTLED * energy:  # steps are of second order
             break
+    else:
+        warnings.warn(
+            f"{cycle.name}: in {_PARTS[-1]} steps a sample the friction energy of the asperities "
+            f"is not known to {_SETTLED:.0%}; samples that are closer together tell it",
+            ValidityWarning,
+            stacklevel=2,
+        )
     return found
 
 

@@ -91,6 +91,8 @@ def _named(one: Judged) -> str:
 
 def _told(one: Judged, least: bool = False) -> str:
     energy, factor = one.numbers["energy"].value, one.numbers["load_factor"].value
+    if not math.isfinite(energy) and not math.isfinite(factor):
+        return f"{_named(one)} tell neither of a year nor of a margin"
     if not math.isfinite(energy):
         most = "most, " if least else ""
         return f"{_named(one)} have {most}{three_digits(factor)} times these loads to their limits"

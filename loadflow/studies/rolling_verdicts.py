@@ -14,6 +14,7 @@ from loadflow.rolling.rating.static import (
     STATIC_RATING,
     STATIC_SOURCE,
 )
+from loadflow.scene.lifetime_shares import PRODUCTION
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.scene import Scene
 from loadflow.studies.uncarried import SLIGHT
@@ -91,7 +92,8 @@ def _lives(
     None of extreme load cases alone: they have no share of the lifetime, and ask for no life.
     """
     rows = [row_of(dlc) for dlc in table["dlc"].values.tolist()]
-    if lifetime is None and all(row is not None and row.kind == "U" for row in rows):
+    extreme = [row is not None and row.kind == "U" and row.dlc not in PRODUCTION for row in rows]
+    if lifetime is None and all(extreme):
         return
     part = scene.rolling if name is None else scene.rolling.bearings[name]
     limit = part.limits.life

@@ -164,6 +164,7 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
     yield _thinnest(options, subject, table, touching, "journal")
     rule = "[Jonuschies 2015, ch. 3.4]"
     low, high = options.sommerfeld_range
+    stated = "sommerfeld_range" in limits.changed
     senses: tuple[
         tuple[float, Literal["at least", "at most"], Literal["least", "most"], str], ...
     ] = (
@@ -175,7 +176,7 @@ def _film(options: Journal, subject: str, table: xr.Dataset) -> Iterator[Verdict
         source = source_of(limits, "sommerfeld_range", f"normal operation, {rule}")
         yield Verdict(
             subject, f"{told} mean Sommerfeld number", value, limit or np.nan, sense,
-            source=source if limit else _NO_WHIRL, case=case,
+            source=source if limit or stated else _NO_WHIRL, case=case,
             key="journal.limits.sommerfeld_range",
         )  # fmt: skip
     peak = table.assign(

@@ -83,6 +83,9 @@ def _called(source: Source, assumed: list[str]) -> dict[str, list[tuple[str, flo
     for place in shape.get("airfoils", []):
         tags = place.get("configuration", [])
         weights = place.get("weight") or [1 / len(tags) for _ in tags]
+        if len(weights) != len(tags):
+            told = f"{len(weights)} weights of {len(tags)} configurations"
+            raise InputError(f"airfoils.{place['name']}: weight has {told}; must have one of each")
         if tags and abs(sum(weights) - 1) > _ROUNDED:
             raise InputError(f"airfoils.{place['name']}: weight = {weights}: must add up to 1")
         mix, name = list(zip(tags, weights, strict=True)), str(place["name"])

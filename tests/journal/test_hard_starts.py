@@ -170,9 +170,9 @@ def _winding(monkeypatch: Any, solve: Any) -> int:
     class Given(Exception):
         pass
 
-    def keep(*arguments: Any) -> Any:
-        names = ("bearing", "options", "loads", "speeds", "line", "control")
-        given.update(zip(names, arguments))
+    def keep(asked: Any) -> Any:
+        given.update(bearing=asked.bearing, options=asked.film, line=asked.line)
+        given.update(loads=asked.force, speeds=asked.speed)
         raise Given
 
     with monkeypatch.context() as patch:
