@@ -18,6 +18,10 @@ from loadflow.journal import (
     Reynolds,
     Supply,
 )
+from loadflow.journal.line import Line
+from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.floating import floating_film
+from loadflow.journal.solvers.statics import Statics
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -111,3 +115,14 @@ def test_a_rupture_that_moves_by_points_leads_to_a_film_at_once():
     found = BEARING.equilibrium(force, np.full(12, 100.0), film)
     assert found.converged.all()
     assert found.iterations.max() < 50
+
+
+def test_a_film_that_ran_away_bends_no_shell_where_the_shaft_is_sought_off_the_bore():
+    found = []
+    for left in (0.0, np.inf):  # growth of the gaps that the last try has left
+        grid = Statics(BEARING, FILM, Line(), SPEED)
+        grid.gap.grow(np.full(grid.gap.mesh.shape, left))
+        found.append(floating_film(grid.film, grid.gap, LOAD, np.zeros(2), Effort(left=1e9)))
+    fresh, after = found
+    assert fresh.iterations == after.iterations > 0
+    np.testing.assert_array_equal(fresh.u, after.u)

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
 from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.film.gap_elastic import GrowingGap
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution, solve_film
 
@@ -24,6 +25,8 @@ def floating_film(
     """
     load = force[:2]
     way, position = load / (float(np.hypot(*load)) or 1.0), estimate.copy()
+    if isinstance(gap, GrowingGap) and not np.isfinite(gap.pressed).all():
+        gap.grow(np.zeros(gap.mesh.shape))  # a film that ran away before bends no shell
     far = _FAR * min(gap.reach(way, 0.0), 1.0)
     if film.speed == 0.0 or float(np.hypot(*position[:2])) > far:
         position[:2] = far * way
