@@ -14,6 +14,7 @@ import xarray as xr
 from loadflow.quantities import load_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.turning import of_running, runs_throughout
+from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import STARTS_ALONE, Number
 from loadflow.studies.run_lifetime import known_shares
 from loadflow.studies.seed_intervals import Groups, interval
@@ -21,9 +22,6 @@ from loadflow.verdict import Verdict
 
 NO_SHARE = "no load case of this run has a share of the lifetime"
 """Why a comparison on extreme load cases alone tells nothing of a life or a year."""
-
-_OF_A_LIFE = ("energy", "mixed_time", "modified_life", "rating_life", "standstill")
-_MEANS = ("friction", "oil_flow", "pump", "friction_torque")
 
 Sense = Literal["most", "least"]
 
@@ -180,9 +178,9 @@ def without_shares(run: Finished, numbers: Mapping[str, Number]) -> dict[str, Nu
     for key, number in numbers.items():
         if number.note.startswith("n/a"):
             continue
-        if key in _OF_A_LIFE:
+        if QUANTITIES[key].shares == "life":
             found[key] = Number(math.nan, number.unit, note=f"n/a: {NO_SHARE}")
-        elif key in _MEANS:
+        elif QUANTITIES[key].shares == "mean":
             note = f"mean of all load cases alike, as {NO_SHARE}"
             found[key] = replace(number, note="; ".join(filter(None, (number.note, note))))
     return found

@@ -31,6 +31,9 @@ class Compared(NamedTuple):
         Its limit is one of practice, which no verdict of a run counts.
     no_error, no_band : str
         Why it has no error by models, or no band by tolerances, of its own.
+    shares : {"", "life", "mean"}
+        Where load cases count with their shares of the lifetime: it tells of a life or a year, or
+        is a mean.
     """
 
     name: str
@@ -42,6 +45,7 @@ class Compared(NamedTuple):
     rule: bool = False
     no_error: str = ""
     no_band: str = ""
+    shares: Literal["", "life", "mean"] = ""
 
 
 _SHORT, _CAPACITY, _OIL = "In short", "Capacity", "Oil"
@@ -53,8 +57,8 @@ QUANTITIES: dict[str, Compared] = {
     "load_factor": Compared(
         "capacity margin: loads may grow by, to the first limit", "×", _SHORT
     ),
-    "energy": Compared("energy lost a year", "MWh", _SHORT),
-    "friction": Compared("mean friction loss", "kW", _SHORT),
+    "energy": Compared("energy lost a year", "MWh", _SHORT, shares="life"),
+    "friction": Compared("mean friction loss", "kW", _SHORT, shares="mean"),
     "minimum_film": Compared("smallest film", "µm", _CAPACITY, "film"),
     "film_to_roughness": Compared(
         "smallest film over roughness R_z of both surfaces", "–", _CAPACITY, "film"
@@ -72,9 +76,11 @@ QUANTITIES: dict[str, Compared] = {
         "largest contact pressure", "MPa", _CAPACITY, "rolling", at_most=True
     ),
     "modified_life": Compared(
-        "modified life L10mh of all bearings", "years", _CAPACITY, "rolling"
+        "modified life L10mh of all bearings", "years", _CAPACITY, "rolling", shares="life"
     ),
-    "rating_life": Compared("rating life L10h of all bearings", "years", _CAPACITY, "rolling"),
+    "rating_life": Compared(
+        "rating life L10h of all bearings", "years", _CAPACITY, "rolling", shares="life"
+    ),
     "row_share": Compared(
         "load on the row that takes the thrust, at largest thrust", "%", _BEFORE, "rows", top=100.0
     ),
@@ -90,7 +96,7 @@ QUANTITIES: dict[str, Compared] = {
     ),
     "standstill": Compared(
         "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling",
-        no_band="loads decide it, no tolerance does",
+        no_band="loads decide it, no tolerance does", shares="life",
     ),
     "tilt": Compared("tilt of the shaft over its limit", "%", _BEFORE, at_most=True, rule=True),
     "whirl": Compared(
@@ -102,24 +108,29 @@ QUANTITIES: dict[str, Compared] = {
     "mixed_time": Compared(
         "time in mixed friction a year", "h", _BEFORE, "film", top=HOURS_PER_YEAR,
         no_error="not counted again: of films of pads, or of such as may be off by 100 %",
+        shares="life",
     ),
     "wear": Compared(
         "wear of the shell by starts, stops and faults of the life",
         "µm", _BEFORE, "journal", at_most=True, rule=True,
     ),
-    "friction_torque": Compared("mean friction torque, ours", "N m", _TORQUE, "rolling"),
-    "palmgren_torque": Compared("after Palmgren", "N m", _TORQUE, "catalogues"),
-    "skf_torque": Compared("after SKF, with its constants", "N m", _TORQUE, "catalogues"),
+    "friction_torque": Compared(
+        "mean friction torque, ours", "N m", _TORQUE, "rolling", shares="mean"
+    ),
+    "palmgren_torque": Compared("after Palmgren", "N m", _TORQUE, "catalogues", shares="mean"),
+    "skf_torque": Compared(
+        "after SKF, with its constants", "N m", _TORQUE, "catalogues", shares="mean"
+    ),
     "constant_coefficient_torque": Compared(
-        "after a constant coefficient, on the bore", "N m", _TORQUE, "catalogues"
+        "after a constant coefficient, on the bore", "N m", _TORQUE, "catalogues", shares="mean"
     ),
     "bearing_temperature": Compared(
         "warmest rolling bearing", "°C", _OIL, "rolling",
         no_error="the ladder has not measured it",
         no_band="the temperature of the oil is a tolerance itself",
     ),
-    "oil_flow": Compared("oil that leaves the films", "l/min", _OIL, "film"),
-    "pump": Compared("power to supply the oil", "kW", _OIL, "film"),
+    "oil_flow": Compared("oil that leaves the films", "l/min", _OIL, "film", shares="mean"),
+    "pump": Compared("power to supply the oil", "kW", _OIL, "film", shares="mean"),
 }  # fmt: skip
 """What is compared, in the order of the page: groups, and rows in each."""
 

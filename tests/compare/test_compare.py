@@ -49,7 +49,7 @@ from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
 from loadflow.studies import compare_risks
 from loadflow.studies.compare import _oil, in_wide_bore, judged
-from loadflow.studies.compare_friction import error_together, rolling_losses
+from loadflow.studies.compare_friction import TORQUES, error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
 from loadflow.studies.compare_numbers import (
     NO_SHARE,
@@ -869,6 +869,7 @@ def test_extreme_load_cases_alone_tell_nothing_of_a_year():
         "energy": Number(6.2, "MWh"), "rating_life": Number(190.0, "years", limit=20.0, holds=True),
         "friction": Number(0.7, "kW", note="cold"), "film_pressure": Number(5.0, "MPa"),
         "mixed_time": Number(math.nan, "h", note="n/a: no film bearing"),
+        **{name: Number(90.0, "N m") for name in TORQUES.values()},
     }  # fmt: skip
     known = Finished("a", "", "", None, {"rolling": table, "lifetime": shares}, {}, None)
     assert without_shares(known, numbers) == numbers
@@ -881,6 +882,10 @@ def test_extreme_load_cases_alone_tell_nothing_of_a_year():
     assert (told["friction"].value, told["friction"].note) == (
         0.7, f"cold; mean of all load cases alike, as {NO_SHARE}",
     )  # fmt: skip
+    for name in TORQUES.values():  # those of catalogues beside ours
+        assert told[name] == replace(
+            numbers[name], note=f"mean of all load cases alike, as {NO_SHARE}"
+        )
 
 
 def test_without_a_year_candidates_rank_by_how_much_loads_may_grow():
