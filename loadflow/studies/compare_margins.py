@@ -179,7 +179,6 @@ class _Life:
 
     place: str
     hours: Callable[[float], float]
-    limit: float
     damage: xr.DataArray
     factor: float
     power: float
@@ -252,7 +251,7 @@ def _together(lives: Sequence[_Life], limit: float, share: np.ndarray, slope: fl
     worst = max(lives, key=lambda one: float((np.nan_to_num(one.damage.values) * share).sum()))
     factor = life_factor(hours, limit)
     power = -power_of_load(hours, factor, WIDEST)
-    return replace(worst, hours=hours, limit=limit, factor=factor, power=power, change="")
+    return _Life(worst.place, hours, worst.damage, factor, power)
 
 
 def _rating(scene: Scene, folder: Path, place: str, tables: Tables, found: float) -> _Life:
@@ -261,7 +260,7 @@ def _rating(scene: Scene, folder: Path, place: str, tables: Tables, found: float
     limit = scene.rolling.bearings[place].limits.life
     damage = damage_per_hour(tables["rolling"].sel(bearing=place), "")
     factor = (found / limit) ** (1 / power)
-    return _Life(place, lambda f: float(found * f**-power), limit, damage, factor, power)
+    return _Life(place, lambda f: float(found * f**-power), damage, factor, power)
 
 
 def _modified(scene: Scene, folder: Path, place: str, tables: Tables, found: float) -> _Life:
@@ -286,15 +285,15 @@ def _modified(scene: Scene, folder: Path, place: str, tables: Tables, found: flo
             damage += own / modified_spectrum_life(bearing, factor * load, speed, oil, weight).life
         return turns / damage if damage else math.inf
 
-    allowed = limit / found * life(1.0)
+    whole = life(1.0)
+    allowed = limit / found * whole
     factor = life_factor(life, allowed)
     warmer = np.linspace(0.0, _WARMER, 13)
     short = np.flatnonzero(np.array([life(1.0, float(more)) for more in warmer]) < allowed)
     change = f"{place}: oil {warmer[short[0]]:.0f} K warmer" if short.size and short[0] > 0 else ""
     power = -power_of_load(life, factor, WIDEST)
     damage = damage_per_hour(every.sel(bearing=place), "modified_")
-    whole = life(1.0)
-    return _Life(place, lambda f: found * life(f) / whole, limit, damage, factor, power, change)
+    return _Life(place, lambda f: found * life(f) / whole, damage, factor, power, change)
 
 
 def _most_damage(damage: xr.DataArray, share: np.ndarray) -> tuple[str, str]:

@@ -16,12 +16,9 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.turning import of_running, runs_throughout
 from loadflow.studies.compare_quantities import QUANTITIES
 from loadflow.studies.compare_result import STARTS_ALONE, Number
-from loadflow.studies.run_lifetime import known_shares
+from loadflow.studies.run_lifetime import NO_SHARE, known_shares
 from loadflow.studies.seed_intervals import Groups, interval
 from loadflow.verdict import Verdict
-
-NO_SHARE = "no load case of this run has a share of the lifetime"
-"""Why a comparison on extreme load cases alone tells nothing of a life or a year."""
 
 Sense = Literal["most", "least"]
 

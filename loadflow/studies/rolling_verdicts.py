@@ -17,6 +17,7 @@ from loadflow.rolling.rating.static import (
 from loadflow.scene.lifetime_shares import PRODUCTION
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.scene import Scene
+from loadflow.studies.run_lifetime import NO_SHARE
 from loadflow.studies.uncarried import SLIGHT
 from loadflow.studies.verdict_parts import STATED, answered, worst_of
 from loadflow.verdict import Verdict
@@ -103,7 +104,7 @@ def _lives(
     for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):
         if kind and swings:  # ISO 281 has no modified life of a bearing that swings
             continue
-        note, value = "no load case has a share of the lifetime", np.nan
+        note, value = NO_SHARE, np.nan
         if lifetime is not None:
             note = f"over {load_cases(table.sizes['case'])} by their share of the lifetime"
             if name is None:

@@ -14,6 +14,9 @@ from loadflow.stages.rolling import hours_together, system_hours
 
 Tables = Mapping[str, xr.Dataset]
 
+NO_SHARE = "no load case has a share of the lifetime"
+"""Why a run, as one on extreme load cases alone, tells nothing of a life or a year."""
+
 
 def run_lifetime(scene: Scene, tables: Tables) -> xr.Dataset | None:
     """Life of the rolling bearings and energy per year of all bearings, over all load cases.

@@ -51,13 +51,7 @@ from loadflow.studies import compare_risks
 from loadflow.studies.compare import _oil, in_wide_bore, judged
 from loadflow.studies.compare_friction import TORQUES, error_together, rolling_losses
 from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_numbers import (
-    NO_SHARE,
-    Finished,
-    extreme,
-    of_one_seed,
-    without_shares,
-)
+from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed, without_shares
 from loadflow.studies.compare_pads import clearance_used
 from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
 from loadflow.studies.compare_result import (
@@ -71,6 +65,7 @@ from loadflow.studies.compare_result import (
 from loadflow.studies.compare_risks import events, mostly_exceeded, rolling_risks, wear
 from loadflow.studies.compare_supply import leaving, supply_power
 from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
+from loadflow.studies.run_lifetime import NO_SHARE
 from loadflow.studies.seed_intervals import Groups, interval, joint_life
 from loadflow.studies.verdicts import AT_NO_RATIO
 from loadflow.verdict import Verdict
