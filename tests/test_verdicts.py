@@ -14,6 +14,7 @@ from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
 from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
+from loadflow.scene.unused import unused_keys
 from loadflow.studies.compare_tilt import carries_thrust
 from loadflow.studies.rolling_verdicts import RollingLimits, _static
 from loadflow.studies.run_lifetime import run_lifetime
@@ -301,6 +302,29 @@ def test_lobes_and_pads_keep_the_film_that_a_cylinder_has_at_its_critical_eccent
     (film,) = (v for v in tight if (v.subject, v.quantity) == ("journal N", "smallest film"))
     assert film.limit == pytest.approx(13.8e-6)
     assert "(3.1)" in film.source
+
+
+@pytest.mark.parametrize(
+    ("geometry", "limits", "told"),
+    [
+        (LEMON, {"minimum_film": 20e-6}, {"minimum_film"}),
+        (PADS, {"waviness": 1e-6, "margin": 2e-6}, {"waviness", "margin"}),
+        (LEMON, {"minimum_film": 40e-6}, set()),
+        (LEMON, {"margin": 2e-6, "eccentricity_ratio": 0.99}, set()),
+        (BORE, {"minimum_film": 20e-6}, set()),
+    ],
+)
+def test_a_least_film_below_that_at_the_critical_eccentricity_is_said_to_do_nothing(
+    geometry, limits, told
+):
+    other = {"geometry": BORE, "limits": {"minimum_film": 20e-6}}
+    journal = {"geometry": geometry, "limits": limits}
+    asked = {"name": "x", "results": ["journal.film"]}
+    found = unused_keys(make_scene(asked | {"journal": journal | {"own": {"N2": other}}}))
+    assert {*found} == {f"journal.limits.{key}" for key in told}
+    assert all("(1 − eccentricity_ratio) c = 37.5 µm" in why for why in found.values())
+    found = unused_keys(make_scene(asked | {"journal": other | {"own": {"N2": journal}}}))
+    assert {*found} == {f"journal.own.N2.limits.{key}" for key in told}
 
 
 def test_tilting_pads_have_no_least_sommerfeld_number_unless_it_is_stated(run):

@@ -97,7 +97,8 @@ class JournalLimits(FilmLimits):
     Attributes
     ----------
     eccentricity_ratio : float
-        Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)].
+        Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)]. Arcs, lobes
+        and pads have the film (1 − E_krit) c in its place, see `loadflow.journal.critical`.
     sommerfeld_range : tuple of float
         So of the mean load, 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4].
     sommerfeld_peak : float

@@ -32,6 +32,7 @@ def _of_film(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
     """Keys of the journal bearing, or of one place."""
     yield from _of_alignment(scene, journal)
     yield from _of_film_model(scene, journal)
+    yield from _of_least_film(journal)
     yield from _of_film_limits(scene)
 
 
@@ -71,6 +72,15 @@ def _of_film_model(scene: Scene, journal: Journal) -> Iterator[tuple[str, str]]:
     if isinstance(journal.heat, Heat) and not journal.in_motion:
         for key in ("heat.capacity", "heat.start_temperature"):
             yield key, "only a film in motion stores heat"
+
+
+def _of_least_film(journal: Journal) -> Iterator[tuple[str, str]]:
+    """Limits of a film that may be no thinner than that at E_krit, as `Journal.least_film`."""
+    film = journal.critical.film
+    if film > journal.limits.least_film(journal.contact_film):
+        why = f"the film at E_krit, (1 − eccentricity_ratio) c = {1e6 * film:.3g} µm, is thicker"
+        for key in ("minimum_film", "waviness", "margin"):
+            yield f"limits.{key}", why
 
 
 def _of_film_limits(scene: Scene) -> Iterator[tuple[str, str]]:
