@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from functools import wraps
+from operator import attrgetter
 from typing import Any, TypeVar
 
 Class = TypeVar("Class", bound=type)
@@ -44,26 +45,45 @@ def renamed(**former: str) -> Callable[[Class], Class]:
         def __init__(self: Any, *arguments: Any, **keywords: Any) -> None:
             for old, new in former.items():
                 if old in keywords:
-                    _warn(cls, old, new, stacklevel=3)
+                    _warn(cls, old, new)
                     keywords[new] = keywords.pop(old)
             initialise(self, *arguments, **keywords)
 
         cls.__init__ = __init__  # type: ignore[misc]
         for old, new in former.items():
-            setattr(cls, old, _attribute(old, new))
+            setattr(cls, old, renamed_attribute(old, new))
         return cls
 
     return decorate
 
 
-def _attribute(old: str, new: str) -> property:
+def renamed_attribute(old: str, new: str) -> property:
+    """Property under a former name, of a class that no keyword of that name builds.
+
+    Parameters
+    ----------
+    old, new : str
+        Former and present name; the present one may be an attribute of an attribute.
+
+    Examples
+    --------
+    >>> class Plane:
+    ...     real = renamed_attribute("real", "point.real")
+    ...     point = 2.0 + 1.0j
+    >>> with warnings.catch_warnings(record=True) as told:
+    ...     warnings.simplefilter("always")
+    ...     value = Plane().real
+    >>> value, str(told[0].message)
+    (2.0, 'Plane: real is now point.real')
+    """
+
     def get(self: Any) -> Any:
-        _warn(type(self), old, new, stacklevel=3)
-        return getattr(self, new)
+        _warn(type(self), old, new)
+        return attrgetter(new)(self)
 
     return property(get, doc=f"Former name of `{new}`; deprecated.")
 
 
-def _warn(cls: type, old: str, new: str, stacklevel: int) -> None:
+def _warn(cls: type, old: str, new: str) -> None:
     said = f"{cls.__name__}: {old} is now {new}"
-    warnings.warn(said, DeprecationWarning, stacklevel=stacklevel + 1)
+    warnings.warn(said, DeprecationWarning, stacklevel=3)  # at the line with it

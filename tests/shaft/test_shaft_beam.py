@@ -239,11 +239,13 @@ def test_a_bearing_without_stiffness_is_refused():
 
 
 def test_the_former_names_still_work_and_say_so():
-    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports"):
+    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports") as told:
         beam = Beam(seats=(STIFF, FREE))
+    assert told[0].filename == __file__
     assert beam == Beam(supports=(STIFF, FREE))
-    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports"):
+    with pytest.warns(DeprecationWarning, match="Beam: seats is now supports") as told:
         assert beam.seats == (STIFF, FREE)
+    assert told[0].filename == __file__
     state = np.zeros(1)
     with pytest.warns(DeprecationWarning, match="CoupledBearing: quick is now cheap"):
         bearing = CoupledBearing(lambda rows: None, state, state.astype(bool), quick=True)
