@@ -285,6 +285,17 @@ LEMON = BORE | {"shape": {"kind": "lobes", "count": 2, "preload": 0.3}}
 PADS = BORE | {"shape": {"kind": "tilting pads", "count": 4, "arc": 1.3, "preload": 0.4}}
 
 
+@pytest.mark.parametrize(("geometry", "ratio"), [(BORE, 0.9), (LEMON, np.inf)])
+def test_the_critical_eccentricity_ratio_keeps_its_former_name_and_says_so(geometry, ratio):
+    journal = make_scene(
+        {"name": "x", "journal": {"geometry": geometry, "limits": {"eccentricity_ratio": 0.9}}}
+    ).journal
+    said = "Journal: critical_eccentricity_ratio is now critical.ratio"
+    with pytest.warns(DeprecationWarning, match=said) as told:
+        assert journal.critical_eccentricity_ratio == ratio
+    assert told[0].filename == __file__
+
+
 @pytest.mark.parametrize("geometry", [LEMON, PADS])
 def test_lobes_and_pads_keep_the_film_that_a_cylinder_has_at_its_critical_eccentricity(
     run, geometry

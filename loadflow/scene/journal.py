@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from loadflow.errors import InputError
+from loadflow.former_names import renamed_attribute
 from loadflow.journal import (
     Contact,
     Film,
@@ -202,6 +203,8 @@ class Journal(Section, BaseModel):
     def critical(self) -> Critical:
         """Where friction becomes mixed: an ε, or a film where the gap closes at no certain one."""
         return Critical.of(self.geometry, self.limits.eccentricity_ratio)
+
+    critical_eccentricity_ratio = renamed_attribute("critical_eccentricity_ratio", "critical.ratio")
 
     @property
     def least_film(self) -> float:
