@@ -2,6 +2,7 @@
 
 import json
 import math
+import tomllib
 
 import numpy as np
 import pytest
@@ -338,6 +339,14 @@ def test_a_least_film_below_that_at_the_critical_eccentricity_is_said_to_do_noth
     assert {*found} == {f"journal.own.N2.limits.{key}" for key in told}
 
 
+@pytest.mark.parametrize("limits", [{}, {"sommerfeld_range": [1.0, 6.0]}])
+def test_a_range_of_sommerfeld_numbers_stays_stated_or_left_out_as_its_scene_is_written(limits):
+    scene = make_scene({"name": "x", "journal": {"geometry": PADS, "limits": limits}})
+    again = make_scene(tomllib.loads(scene.to_toml()))
+    assert again.journal.limits == scene.journal.limits
+    assert again.journal.sommerfeld_range == (1.0 if limits else 0.0, 6.0)
+
+
 def test_tilting_pads_have_no_least_sommerfeld_number_unless_it_is_stated(run):
     def least(geometry, **limits):
         judged = again(run, journal=FILM | {"geometry": geometry, "limits": limits})
@@ -349,6 +358,8 @@ def test_tilting_pads_have_no_least_sommerfeld_number_unless_it_is_stated(run):
     assert least(PADS).answer == "no limit"
     assert "do not whirl" in least(PADS).source
     assert least(PADS, sommerfeld_range=(0.9, 6.0)).limit == 0.9
+    usual = least(PADS, sommerfeld_range=(1.0, 6.0))  # as others have by default
+    assert (usual.limit, usual.source) == (1.0, "as the scene states")
     assert "whirl" not in least(BORE, sommerfeld_range=(0.0, 6.0)).source
 
 

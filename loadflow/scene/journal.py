@@ -26,7 +26,7 @@ from loadflow.journal.models.model import Verb, why_not
 from loadflow.journal.shells import Shell
 from loadflow.journal.thermal import grown_by
 from loadflow.scene.films import HeatTable, Law, RungName
-from loadflow.scene.limits import JournalLimits
+from loadflow.scene.limits import NORMAL_OPERATION, JournalLimits
 from loadflow.scene.messages import message
 from loadflow.scene.places import SHARED
 from loadflow.scene.seats import SeatTable, check_seat
@@ -216,14 +216,15 @@ class Journal(Section, BaseModel):
 
     @property
     def sommerfeld_range(self) -> tuple[float, float]:
-        """Least and largest So of the mean load; on tilting pads the least is 0 by default.
+        """Least and largest So of the mean load: as stated, or 1 … 6, on tilting pads 0 … 6.
 
-        It keeps a bearing from running fast for its load [Jonuschies 2015, ch. 3.4], where a plain
-        bore, or one of lobes, drives the shaft into a whirl. Pads do not [Lund 1987].
+        The least keeps a bearing from running fast for its load [Jonuschies 2015, ch. 3.4], where a
+        plain bore, or one of lobes, drives the shaft into a whirl. Pads do not [Lund 1987].
         """
-        low, high = self.limits.sommerfeld_range
-        tilting = any(part.tilting for part in self.geometry.shape.segments)
-        return (0.0 if tilting and "sommerfeld_range" not in self.limits.changed else low), high
+        if self.limits.sommerfeld_range is not None:
+            return self.limits.sommerfeld_range
+        low, high = NORMAL_OPERATION
+        return 0.0 if any(part.tilting for part in self.geometry.shape.segments) else low, high
 
     @property
     def in_motion(self) -> bool:

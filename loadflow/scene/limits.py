@@ -28,6 +28,9 @@ OIL_TEMPERATURES: dict[str, tuple[float, float]] = {
 
 OIL_HOURS = 100.0, 10_000.0
 
+NORMAL_OPERATION = 1.0, 6.0
+"""Least and largest So of the mean load in normal operation [Jonuschies 2015, ch. 3.4]."""
+
 
 class FilmLimits(Section, BaseModel):
     """What the film of any bearing must hold.
@@ -99,8 +102,9 @@ class JournalLimits(FilmLimits):
     eccentricity_ratio : float
         Largest ε; above E_krit = 0.95 begins mixed friction [Jonuschies 2015, (5.2)]. Arcs, lobes
         and pads have the film (1 − E_krit) c in its place, see `loadflow.journal.critical`.
-    sommerfeld_range : tuple of float
-        So of the mean load, 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4].
+    sommerfeld_range : tuple of float, optional
+        So of the mean load. Left out: 1 … 6 in normal operation [Jonuschies 2015, ch. 3.4], on
+        tilting pads without the lower end, see `Journal.sommerfeld_range`.
     sommerfeld_peak : float
         Largest So, reached briefly: 10 [Jonuschies 2015, ch. 3.4].
     specific_load : float, optional
@@ -112,7 +116,7 @@ class JournalLimits(FilmLimits):
     """
 
     eccentricity_ratio: Annotated[float, Field(gt=0, lt=1)] = 0.95
-    sommerfeld_range: tuple[Annotated[float, Field(ge=0)], Positive] = (1.0, 6.0)
+    sommerfeld_range: tuple[Annotated[float, Field(ge=0)], Positive] | None = None
     sommerfeld_peak: Positive = 10.0
     specific_load: Positive | None = None
     oil: Oil = "mineral, oxygen-saturated"
@@ -121,7 +125,7 @@ class JournalLimits(FilmLimits):
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
-        low, high = self.sommerfeld_range
+        low, high = self.sommerfeld_range or NORMAL_OPERATION
         if not low < high <= self.sommerfeld_peak:
             raise ValueError(
                 f"sommerfeld_range = {low:g} … {high:g} must rise and end at or below "
