@@ -165,7 +165,7 @@ def error_of(run: Finished, result: str, quantity: str) -> float:
 def without_shares(run: Finished, numbers: Mapping[str, Number]) -> dict[str, Number]:
     """The numbers of a run, without those of a life or a year where no load case has a share of it.
 
-    Means are then those over all load cases, each as long as another, and say so.
+    Means and quantiles are then those over all load cases, each as long as another, and say so.
     """
     rooms = ("journal", "thrust", "rolling")
     table = next(run.tables[room] for room in rooms if room in run.tables)
@@ -178,7 +178,7 @@ def without_shares(run: Finished, numbers: Mapping[str, Number]) -> dict[str, Nu
         if QUANTITIES[key].shares == "life":
             found[key] = Number(math.nan, number.unit, note=f"n/a: {NO_SHARE}")
         elif QUANTITIES[key].shares == "mean":
-            note = f"mean of all load cases alike, as {NO_SHARE}"
+            note = f"all load cases count alike, as {NO_SHARE}"
             found[key] = replace(number, note="; ".join(filter(None, (number.note, note))))
     return found
 

@@ -33,7 +33,7 @@ class Compared(NamedTuple):
         Why it has no error by models, or no band by tolerances, of its own.
     shares : {"", "life", "mean"}
         Where load cases count with their shares of the lifetime: it tells of a life or a year, or
-        is a mean.
+        is a mean or a quantile over all of them.
     """
 
     name: str
@@ -92,7 +92,7 @@ QUANTITIES: dict[str, Compared] = {
     ),
     "minimum_load": Compared(
         "load over the dynamic capacity, exceeded for 95 % of the time (skidding)", "%", _BEFORE,
-        "rolling", rule=True,
+        "rolling", rule=True, shares="mean",
     ),
     "standstill": Compared(
         "time standing, share of the lifetime (marks of standing)", "%", _BEFORE, "rolling",

@@ -865,6 +865,7 @@ def test_extreme_load_cases_alone_tell_nothing_of_a_year():
         "friction": Number(0.7, "kW", note="cold"), "film_pressure": Number(5.0, "MPa"),
         "mixed_time": Number(math.nan, "h", note="n/a: no film bearing"),
         **{name: Number(90.0, "N m") for name in TORQUES.values()},
+        "minimum_load": Number(1.5, "%", limit=2.0, holds=False),
     }  # fmt: skip
     known = Finished("a", "", "", None, {"rolling": table, "lifetime": shares}, {}, None)
     assert without_shares(known, numbers) == numbers
@@ -875,11 +876,11 @@ def test_extreme_load_cases_alone_tell_nothing_of_a_year():
     assert told["mixed_time"] == numbers["mixed_time"]
     assert told["film_pressure"] == numbers["film_pressure"]
     assert (told["friction"].value, told["friction"].note) == (
-        0.7, f"cold; mean of all load cases alike, as {NO_SHARE}",
+        0.7, f"cold; all load cases count alike, as {NO_SHARE}",
     )  # fmt: skip
-    for name in TORQUES.values():  # those of catalogues beside ours
+    for name in ("minimum_load", *TORQUES.values()):  # those of catalogues beside ours
         assert told[name] == replace(
-            numbers[name], note=f"mean of all load cases alike, as {NO_SHARE}"
+            numbers[name], note=f"all load cases count alike, as {NO_SHARE}"
         )
 
 
