@@ -63,6 +63,7 @@ from loadflow.studies.compare_result import (
     missing,
 )
 from loadflow.studies.compare_risks import events, mostly_exceeded, rolling_risks, wear
+from loadflow.studies.compare_seeds import of_life
 from loadflow.studies.compare_supply import leaving, supply_power
 from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
 from loadflow.studies.run_lifetime import NO_SHARE
@@ -341,6 +342,15 @@ def test_the_margin_of_lives_is_that_of_all_bearings_as_a_system(found):
     assert margin.factor == pytest.approx((both / limit) ** 0.3, rel=2e-3)  # as it is sought
     assert margin.governs.startswith("rating life of all bearings, most of ")
     assert margin.low <= margin.factor <= margin.high
+
+
+def test_seeds_of_a_margin_of_all_bearings_follow_their_life_as_a_system():
+    damage = np.array([[1e-6, 4e-6], [3e-6, 1e-6]])
+    over = xr.DataArray(damage, dims=("case", "bearing"))
+    first, both = (float(system_life(1 / own, 1.5)) for own in (damage[0], damage.mean(axis=0)))
+    for found in (over, over.transpose()):
+        drawn = of_life(found, np.array([0.5, 0.5]), 2.0, 3.0, 1.5)
+        assert drawn(np.array([0, 0])) == pytest.approx(2.0 * (first / both) ** (1 / 3))
 
 
 def test_rolling_bearings_have_skidding_films_and_standstill_journal_bearings_a_reason(found):
