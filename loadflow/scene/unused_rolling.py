@@ -164,13 +164,8 @@ def _of_cooling(scene: Scene, films: bool) -> Iterator[tuple[str, str]]:
     for place in friction.cooling:
         parts = [part for part in every_rolling(scene) if part.bearing == place]
         if not parts:
-            yield (
-                f"cooling.{place}",
-                (
-                    "no rolling bearing of the scene stands there, nor of its candidates"
-                    + (_COMPARED if _has_sized(scene, place) else "")
-                ),
-            )
+            why = "no rolling bearing of the scene stands there, nor of its candidates"
+            yield f"cooling.{place}", why + (_COMPARED if _has_sized(scene, place) else "")
         elif "rolling.friction" not in scene.results and not (
             any(friction.states(part) or part.balances_heat for part in parts)
         ):
