@@ -138,6 +138,7 @@ def test_configurations_of_an_airfoil_are_mixed_by_their_weights(document, read,
     assert not any(text.startswith("airfoils") for text in found.assumed)
     for change, says in (
         ({"weight": [0.6, 0.5]}, "weight = .* must add up to 1"),
+        ({"weight": [1.2, -0.2]}, "none may be negative"),
         ({"configuration": ["default", "smooth"]}, "no configuration 'smooth'"),
         ({"name": "FFA-W3-212"}, "no airfoil 'FFA-W3-212'"),
     ):
