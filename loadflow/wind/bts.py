@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.wind.box import Box, power_law_exponent, spacing_of
+from loadflow.wind.box import Box, fitted_profile, spacing_of
 from loadflow.wind.box_file import content
 
 _HEAD = struct.Struct("<h4i6f6fi")
@@ -140,9 +140,8 @@ def read_bts(path: str | Path) -> Box:
     )
     z = bottom + dz * np.arange(nz)
     mean = u.mean(axis=(0, 1), dtype=float)
-    exponent = power_law_exponent(z / hub, mean / speed, path)
-    above = np.maximum(z, 0.5 * dz) / hub  # a power of the ground may be infinite
-    u -= (speed * above**exponent).astype(np.float32)
+    exponent, profile = fitted_profile(z, dz, hub, mean / speed, path)
+    u -= (speed * profile).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dt * np.arange(nt), y, z, u, v, w, speed, hub, exponent)
 

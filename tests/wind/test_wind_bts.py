@@ -101,6 +101,19 @@ def test_a_description_of_negative_length_is_refused(box, tmp_path):
             read_bts(path)
 
 
+def test_a_grid_that_begins_at_the_ground_has_finite_wind(box, tmp_path):
+    """With less wind above the exponent is negative, and the power of the ground infinite."""
+    path = tmp_path / "wind.bts"
+    write_bts(path, replace(box, shear_exponent=-0.1))
+    whole = bytearray(path.read_bytes())
+    struct.pack_into("<f", whole, 38, 0.0)
+    path.write_bytes(whole)
+    found = read_bts(path)
+    assert found.z[0] == 0.0
+    assert found.shear_exponent < 0
+    assert np.isfinite(found.u).all()
+
+
 def test_a_wind_from_behind_has_no_profile(box, tmp_path):
     path = tmp_path / "wind.bts"
     write_bts(path, replace(box, u=box.u - 40.0))
