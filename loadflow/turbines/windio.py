@@ -8,7 +8,7 @@ that both are checked in one way, and what a file lacks can be given beside it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -195,13 +195,9 @@ def _described(
     _put(found.setdefault("tower", {}), "bending", bending)
     _control(source, found, merged, assumed)
     described = _merged(found, beside)
-    told = [text for key, text in assumed_of(assumed) if not _has(beside, key)]
+    # each begins with its key
+    told = [text for text in assumed if not _has(beside, text.split(" ")[0].removesuffix(":"))]
     return described | {"assumed": (*described.get("assumed", ()), *told)}
-
-
-def assumed_of(assumed: Iterable[str]) -> Iterable[tuple[str, str]]:
-    """Key and whole text of what was assumed."""
-    return ((text.split(" ")[0], text) for text in assumed)
 
 
 def _put(found: dict[str, Any], key: str, value: Any) -> None:

@@ -59,13 +59,13 @@ def foil_table(
     thickness: dict[str, float] = {}
     by_thickness: dict[float, str] = {}
     for name in [*called, *(name for name in entries if name not in called)]:
-        entry = entries[name]
-        foil = _foil(name, entry, called.get(name, []), reynolds, assumed)
+        entry, counts = entries[name], not called or name in called
+        foil = _foil(name, entry, called.get(name, []), reynolds, assumed if counts else [])
         given = entry.get("rthick", entry.get("relative_thickness"))
         if given is None:
             continue
         foils[name] = foil
-        if called and name not in called:
+        if not counts:
             continue
         thickness[name] = float(given)
         if float(given) in by_thickness:
