@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.wind.box import Box, fitted_profile
+from loadflow.wind.box import LARGEST, Box, fitted_profile
 from loadflow.wind.box_file import content
 
 _IMPROVED, _LONG = 4, (7, 8)  # TurbSim and improved von Karman; general Kaimal and Mann
@@ -95,10 +95,11 @@ def read_bladed_box(
         )
     if hub_height is None or intensity is None:
         raise InputError(f"{path}: the file states no hub_height and intensity; give both")
-    if not (0 < hub_height < np.inf and all(0 <= share < np.inf for share in intensity)):
+    most = LARGEST / (33 * speed)  # an integer counts up to 32.8 of it
+    if not (0 < hub_height < np.inf and all(0 <= share < most for share in intensity)):
         raise InputError(
             f"{path}: hub_height = {hub_height} m must be positive and finite, "
-            f"intensity = {intensity} at least 0 and finite"
+            f"intensity = {intensity} at least 0 and below {most:.0e}"
         )
     count, row = 2 * half, 3 * ny * nz
     # headers differ in length, but the integers run to the end

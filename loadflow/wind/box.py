@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError
 from loadflow.wind.field import Field, check_polar_grid
 
+LARGEST = float(np.finfo(np.float32).max)
+"""Wind that a box can hold, m/s."""
+
 
 @dataclass(frozen=True, eq=False)
 class Box:

@@ -74,8 +74,9 @@ def test_bad_files_are_named(box, tmp_path):
             30: (np.nan, np.inf, 0.0),  # mean speed
             34: (np.nan, 0.0, -90.0),  # hub
             38: (np.nan, -100.0),  # lowest line
-            42: (np.nan, np.inf, 0.0, -5.0),  # slope of u
+            42: (np.nan, np.inf, 0.0, -5.0, 1e-38),  # slope of u
             46: (np.nan, np.inf),  # its offset
+            50: (1e-38,),  # slope of v, which makes it infinite
         }.items()
         for value in values
     ],
