@@ -16,9 +16,12 @@ from synthetic import cube_file
 
 import loadflow as lf
 from loadflow.cube import open_cube
+from loadflow.cube.hdf5 import read_whole
 from loadflow.errors import InputError, ValidityWarning
 from loadflow.planning.plan import make_plan
+from loadflow.running.cases import open_inputs
 from loadflow.running.earlier import _as_written, _changed
+from loadflow.running.folder import part_file
 from loadflow.running.runner import run_on
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
@@ -43,8 +46,23 @@ def cube(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def finished(cube, tmp_path_factory):
-    return lf.run(scene_of(cube), out=tmp_path_factory.mktemp("runs"), report=False)
+def shared():
+    """Parts of a case that its stages share, as each stage begins, that are not as on disk."""
+    return {"looked at": 0, "changed": []}
+
+
+@pytest.fixture(scope="module")
+def finished(cube, tmp_path_factory, shared):
+    def watched(step, case, folder, opened):
+        for name, data in opened.items():
+            shared["looked at"] += 1
+            if not data.identical(read_whole(part_file(folder, name, case))):
+                shared["changed"].append(f"{name}, before {step.name}")
+        return open_inputs(step, case, folder, opened)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("loadflow.running.cases.open_inputs", watched)
+        return lf.run(scene_of(cube), out=tmp_path_factory.mktemp("runs"), report=False)
 
 
 def groups(tree):
@@ -98,6 +116,11 @@ def test_a_run_answers_all_that_was_asked(finished):
     ).all()
     assert (tree["rolling"]["largest_ball_force"] > 1e3).all()
     assert finished.failures == finished.flagged == {}
+
+
+def test_no_stage_changes_the_parts_that_the_next_one_is_given(finished, shared):
+    assert shared["looked at"] >= 8 * len(finished.tree["loads"]["case"])
+    assert shared["changed"] == []
 
 
 def test_every_number_of_the_result_has_units_and_a_meaning(finished):

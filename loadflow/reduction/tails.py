@@ -21,6 +21,7 @@ from loadflow.reduction.extremes import block_maxima, gumbel_parameters
 
 YEAR = 365.25 * 86_400.0
 LEAST = 10  # values that a fit needs
+ROUNDING = 1e-12  # spread of equal values, relative to the largest
 RESAMPLES = 500
 STEPS = 80  # halvings of the interval that holds the level: to double precision
 
@@ -141,9 +142,9 @@ def tail_of_maxima(x: ArrayLike, dt: float, block: float) -> Tail:
     ('maxima', 60)
     """
     maxima = np.concatenate([block_maxima(row, dt, block) for row in _rows(x)])
-    _enough(maxima, "blocks")
+    _check(maxima, "blocks")
     location, scale = (float(v) for v in gumbel_parameters(maxima))
-    return Tail(location, _positive(scale), 0.0, 1.0 / (round(block / dt) * dt), maxima.size)
+    return Tail(location, scale, 0.0, 1.0 / (round(block / dt) * dt), maxima.size)
 
 
 def tail_of_peaks(
@@ -190,18 +191,18 @@ def tail_of_peaks(
         raise InputError(f"quantile = {quantile}; allowed: 0 < quantile < 1")
     if not (dt > 0 and separation >= dt):
         raise InputError(f"separation = {separation} s; allowed: at least the time step, {dt} s")
+    if shape not in (0, None):
+        raise InputError(f"shape = {shape!r}; allowed: 0, None")
     threshold = float(np.quantile(np.concatenate(rows), quantile))
     apart = round(separation / dt)
     peaks = np.concatenate([_peaks(row, threshold, apart) for row in rows])
-    _enough(peaks, "peaks over the threshold")
+    _check(peaks, "peaks over the threshold")
     if shape is None:
         scale, fitted = (float(v) for v in _pareto(peaks - threshold))
-    elif shape == 0:
-        scale, fitted = float(peaks.mean()) - threshold, 0.0
     else:
-        raise InputError(f"shape = {shape!r}; allowed: 0, None")
+        scale, fitted = float(peaks.mean()) - threshold, 0.0
     rate = peaks.size / (sum(row.size for row in rows) * dt)
-    return Tail(threshold, _positive(scale), fitted, rate, peaks.size, "peaks")
+    return Tail(threshold, scale, fitted, rate, peaks.size, "peaks")
 
 
 def long_term_extreme(
@@ -335,12 +336,9 @@ def _peaks(x: Floats, threshold: float, apart: int) -> Floats:
     return np.maximum.reduceat(x[above], starts)
 
 
-def _enough(values: Floats, what: str) -> None:
+def _check(values: Floats, what: str) -> None:
+    """Refuse values too few for a tail, or so equal that their spread is one of rounding."""
     if values.size < LEAST:
         raise InputError(f"{values.size} {what}; a tail needs at least {LEAST}")
-
-
-def _positive(scale: float) -> float:
-    if not scale > 0:
+    if np.ptp(values) <= ROUNDING * np.abs(values).max():
         raise InputError("all maxima are equal; there is no tail to extrapolate")
-    return scale

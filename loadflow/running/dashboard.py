@@ -131,23 +131,22 @@ class RunView:
 
     def film_figure(self, case: str, bearing: str) -> Figure | None:
         """Draw the film of a bearing over time."""
-        return self._of_film(case, bearing, film_series)
+        samples = self._film(case, bearing)
+        return None if samples is None else film_series(samples)
 
     def orbit_figure(self, case: str, bearing: str) -> Figure | None:
         """Draw the shaft centre in the clearance circle; a thrust bearing has none."""
-        return self._of_film(case, bearing, orbit)
+        samples = self._film(case, bearing)
+        return None if samples is None or "eccentricity" not in samples else orbit(samples)
 
-    def _of_film(
-        self, case: str, bearing: str, draw: Callable[[xr.Dataset], Figure]
-    ) -> Figure | None:
+    def _film(self, case: str, bearing: str) -> xr.Dataset | None:
+        """Film of a bearing over time; None where no sample is solved."""
         stage = next(s for s in reversed(_FILMS) if bearing.endswith(_FILMS[s]))
         found, name = self.part(stage, case), bearing.removesuffix(_FILMS[stage])
         if found is None or name not in found.children:
             return None
-        samples = found[name].to_dataset().load()
-        if draw is orbit and "eccentricity" not in samples:
-            return None
-        return draw(samples) if bool((samples["converged"] > 0).any()) else None
+        samples: xr.Dataset = found[name].to_dataset().load()
+        return samples if bool((samples["converged"] > 0).any()) else None
 
     def rolling_figure(self, case: str) -> Figure | None:
         """Draw force and pressure of the rolling elements over time."""

@@ -8,7 +8,7 @@ that both are checked in one way, and what a file lacks can be given beside it.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -186,9 +186,8 @@ def _described(
     radius = rotor.get("radius")
     reynolds = reynolds_number(source, radius, _rated_rotor_speed(source, radius))
     found["airfoils"], thicknesses = foil_table(source, reynolds, assumed)
-    blade = blade_table(source, rotor, found["airfoils"], thicknesses, sections, damping)
-    _put(found, "blade", blade or None)
-    found["airfoils"] = {name: foil for name, foil in found["airfoils"].items() if foil}
+    blade = blade_table(source, rotor, thicknesses, sections, damping)
+    _put(found, "blade", blade)
     merged = _merged(found, beside)  # what is beside counts in what follows from it
     hub, mass = merged.get("rotor", {}).get("hub_mass"), (blade or {}).get("mass")
     on_top = None if hub is None or mass is None else hub + rotor.get("blades", 3) * mass
@@ -196,13 +195,9 @@ def _described(
     _put(found.setdefault("tower", {}), "bending", bending)
     _control(source, found, merged, assumed)
     described = _merged(found, beside)
-    told = [text for key, text in assumed_of(assumed) if not _has(beside, key)]
+    # each begins with its key
+    told = [text for text in assumed if not _has(beside, text.split(" ")[0].removesuffix(":"))]
     return described | {"assumed": (*described.get("assumed", ()), *told)}
-
-
-def assumed_of(assumed: Iterable[str]) -> Iterable[tuple[str, str]]:
-    """Key and whole text of what was assumed."""
-    return ((text.split(" ")[0], text) for text in assumed)
 
 
 def _put(found: dict[str, Any], key: str, value: Any) -> None:
@@ -323,10 +318,10 @@ def _at_rated_speed(
         "region_15_start": lowest * gear,
         "region_2_start": _LOWEST_RANGE * lowest * gear,
     }
-    mechanical = _mechanical(source, merged, reference, gear, assumed)
+    torque = _largest_torque(source, merged.get("rated_power"), rotor_speed, gear)
+    mechanical = _mechanical(source, merged, rotor_speed, torque, assumed)
     _put(control, "rated_mechanical_power", mechanical)
     mechanical = merged.get("control", {}).get("rated_mechanical_power", mechanical)
-    torque = _largest_torque(source, merged.get("rated_power"), rotor_speed, gear)
     if torque is not None:
         control["maximum_torque"] = torque / gear
     elif mechanical is not None:
@@ -339,8 +334,8 @@ def _at_rated_speed(
 def _mechanical(
     source: Source,
     merged: Mapping[str, Any],
-    reference: float,
-    gear: float,
+    rotor_speed: float,
+    torque: float | None,
     assumed: list[str],
 ) -> float | None:
     """Power of the rotor at rated, W: that of the format is electrical."""
@@ -352,13 +347,12 @@ def _mechanical(
         efficiency = generator * (source.number("gearbox efficiency") or 1.0)
     if efficiency is not None:
         return float(power / efficiency)
-    torque = _largest_torque(source, power, reference / gear, gear)
     if torque is None:
         source.hints["control.rated_mechanical_power"] = (
             "the file has no efficiency of the generator; drivetrain.efficiency gives it, too"
         )
         return None
-    mechanical = torque * reference / gear / _TORQUE_RESERVE
+    mechanical = torque * rotor_speed / _TORQUE_RESERVE
     if not power <= mechanical <= 1.15 * power:
         source.hints["control.rated_mechanical_power"] = (
             "neither efficiency nor largest torque of the file tell it; drivetrain.efficiency does"

@@ -45,7 +45,7 @@ def polar_of(sets: list[Any], reynolds: float | None) -> tuple[Any, list[float]]
 def foil_table(
     source: Source, reynolds: float | None, assumed: list[str]
 ) -> tuple[dict[str, Any], dict[str, float]]:
-    """Polars by name, and the relative thickness of each; angles in radians.
+    """Polars by name, and the relative thickness of those of the blade; angles in radians.
 
     Of several Reynolds numbers that nearest to `reynolds`, which is told in `assumed`. A database
     has airfoils that a blade does not call [windIO]: they take no part in blending, and neither do
@@ -59,14 +59,15 @@ def foil_table(
     thickness: dict[str, float] = {}
     by_thickness: dict[float, str] = {}
     for name in [*called, *(name for name in entries if name not in called)]:
-        entry = entries[name]
-        foil = _foil(name, entry, called.get(name, []), reynolds, assumed)
+        entry, counts = entries[name], not called or name in called
+        foil = _foil(name, entry, called.get(name, []), reynolds, assumed if counts else [])
         given = entry.get("rthick", entry.get("relative_thickness"))
         if given is None:
             continue
-        foils[name], thickness[name] = foil, float(given)
-        if called and name not in called:
+        foils[name] = foil
+        if not counts:
             continue
+        thickness[name] = float(given)
         if float(given) in by_thickness:
             other = by_thickness[float(given)]
             assumed.append(f"airfoils.{name}: {other}, of the same thickness, stands for both")
@@ -86,8 +87,9 @@ def _called(source: Source, assumed: list[str]) -> dict[str, list[tuple[str, flo
         if len(weights) != len(tags):
             told = f"{len(weights)} weights of {len(tags)} configurations"
             raise InputError(f"airfoils.{place['name']}: weight has {told}; must have one of each")
-        if tags and abs(sum(weights) - 1) > _ROUNDED:
-            raise InputError(f"airfoils.{place['name']}: weight = {weights}: must add up to 1")
+        if tags and (min(weights) < 0 or abs(sum(weights) - 1) > _ROUNDED):
+            told = f"weight = {weights}: none may be negative, and they must add up to 1"
+            raise InputError(f"airfoils.{place['name']}: {told}")
         mix, name = list(zip(tags, weights, strict=True)), str(place["name"])
         if called.setdefault(name, mix) != mix:
             assumed.append(f"airfoils.{name}: mixed as at its place nearest to the root")
@@ -145,7 +147,6 @@ def _foil(
 def blade_table(
     source: Source,
     rotor: dict[str, Any],
-    foils: dict[str, Any],
     thickness: dict[str, float],
     sections: int,
     damping: float,
@@ -171,7 +172,7 @@ def blade_table(
         places = shape["airfoil_position"]
         values = [thickness[name] for name in places["labels"]]
         thick = at({"grid": places["grid"], "values": values})
-    known = sorted(foil["thickness"] for foil in foils.values() if "thickness" in foil)
+    known = sorted(thickness.values())
     thick = np.clip(np.round(thick, 4), known[0], known[-1])
     columns = zip(
         rotor["hub_radius"] + station, at(shape["twist"]) * unit, at(shape["chord"]), thick

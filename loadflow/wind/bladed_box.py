@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from loadflow.errors import InputError
-from loadflow.wind.box import Box, power_law_exponent
+from loadflow.wind.box import LARGEST, Box, fitted_profile
 from loadflow.wind.box_file import content
 
 _IMPROVED, _LONG = 4, (7, 8)  # TurbSim and improved von Karman; general Kaimal and Mann
@@ -95,8 +95,12 @@ def read_bladed_box(
         )
     if hub_height is None or intensity is None:
         raise InputError(f"{path}: the file states no hub_height and intensity; give both")
-    if not (0 < hub_height < np.inf and all(0 <= share < np.inf for share in intensity)):
-        raise InputError(f"{path}: hub_height = {hub_height} m, intensity = {intensity}")
+    most = LARGEST / (33 * speed)  # an integer counts up to 32.8 of it
+    if not (0 < hub_height < np.inf and all(0 <= share < most for share in intensity)):
+        raise InputError(
+            f"{path}: hub_height = {hub_height} m must be positive and finite, "
+            f"intensity = {intensity} at least 0 and below {most:.0e}"
+        )
     count, row = 2 * half, 3 * ny * nz
     # headers differ in length, but the integers run to the end
     start = start + _GRID.size + 24 if model == _IMPROVED else len(raw) - 2 * count * row
@@ -113,8 +117,7 @@ def read_bladed_box(
     z = hub_height + dz * (np.arange(nz) - (nz - 1) / 2)
     if shear_exponent is None:
         mean = speed + u.mean(axis=(0, 1), dtype=float)
-        shear_exponent = power_law_exponent(z / hub_height, mean / speed, path)
-        above = np.maximum(z, 0.5 * dz) / hub_height  # a power of the ground may be infinite
-        u -= (speed * (above**shear_exponent - 1)).astype(np.float32)
+        shear_exponent, profile = fitted_profile(z, dz, hub_height, mean / speed, path)
+        u -= (speed * (profile - 1)).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dx / speed * np.arange(count), y, z, u, v, w, speed, hub_height, shear_exponent)

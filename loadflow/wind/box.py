@@ -10,6 +10,9 @@ from numpy.typing import ArrayLike, NDArray
 from loadflow.errors import InputError
 from loadflow.wind.field import Field, check_polar_grid
 
+LARGEST = float(np.finfo(np.float32).max)
+"""Wind that a box can hold, m/s."""
+
 
 @dataclass(frozen=True, eq=False)
 class Box:
@@ -117,21 +120,27 @@ def _cell(
     return index, np.clip(place, 0, 1).astype(np.float32)
 
 
-def power_law_exponent(
-    height: NDArray[np.float64], speed: NDArray[np.float64], source: object
-) -> float:
-    """Exponent of the power law nearest to a profile, both relative to the hub.
+def fitted_profile(
+    z: NDArray[np.float64],
+    spacing: float,
+    hub_height: float,
+    speed: NDArray[np.float64],
+    source: object,
+) -> tuple[float, NDArray[np.float64]]:
+    """Exponent of the power law nearest to a profile relative to the hub's, and that law at `z`.
 
     Raises
     ------
     InputError
         No height but that of the hub has a mean wind from ahead; names the `source`.
     """
-    above = (height > 0) & (speed > 0)
-    log_z = np.log(height[above])
+    above = (z > 0) & (speed > 0)
+    log_z = np.log(z[above] / hub_height)
     if not np.any(log_z):
         raise InputError(f"{source}: no height beside the hub's has a mean wind from ahead")
-    return float(log_z @ np.log(speed[above]) / (log_z @ log_z))
+    exponent = float(log_z @ np.log(speed[above]) / (log_z @ log_z))
+    # a power of the ground may be infinite
+    return exponent, (np.maximum(z, 0.5 * spacing) / hub_height) ** exponent
 
 
 def spacing_of(name: str, line: NDArray[np.float64]) -> float:

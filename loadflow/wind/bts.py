@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.wind.box import Box, power_law_exponent, spacing_of
+from loadflow.wind.box import LARGEST, Box, fitted_profile, spacing_of
 from loadflow.wind.box_file import content
 
 _HEAD = struct.Struct("<h4i6f6fi")
@@ -125,6 +125,7 @@ def read_bts(path: str | Path) -> Box:
         or not all(0 < size < np.inf for size in (dz, dy, dt, speed, hub))
         or not np.isfinite([bottom, *scales]).all()
         or min(scales[::2]) <= 0
+        or any(2**15 + abs(b) > LARGEST * a for a, b in zip(scales[::2], scales[1::2]))
     ):
         raise InputError(
             f"{path}: not a .bts file (identifier {identifier}, grid {ny} × {nz} of {dy} × {dz} m "
@@ -140,9 +141,8 @@ def read_bts(path: str | Path) -> Box:
     )
     z = bottom + dz * np.arange(nz)
     mean = u.mean(axis=(0, 1), dtype=float)
-    exponent = power_law_exponent(z / hub, mean / speed, path)
-    above = np.maximum(z, 0.5 * dz) / hub  # a power of the ground may be infinite
-    u -= (speed * above**exponent).astype(np.float32)
+    exponent, profile = fitted_profile(z, dz, hub, mean / speed, path)
+    u -= (speed * profile).astype(np.float32)
     y = dy * (np.arange(ny) - (ny - 1) / 2)
     return Box(dt * np.arange(nt), y, z, u, v, w, speed, hub, exponent)
 

@@ -126,6 +126,8 @@ def test_a_bounded_tail_is_recognised_and_never_exceeds_its_end():
     [
         (lambda: tail_of_maxima(np.ones(50), 1.0, 10.0), "5 blocks; a tail needs at least 10"),
         (lambda: tail_of_maxima(np.ones(500), 1.0, 10.0), "all maxima are equal"),
+        (lambda: tail_of_maxima(np.full(6100, 0.1), 1.0, 100.0), "all maxima are equal"),
+        (lambda: tail_of_peaks(np.arange(91.0) % 7, 1.0, 0.5, 2.0, shape=None), "all maxima are"),
         (lambda: tail_of_peaks(np.arange(9.0), 1.0, 0.5, 1.0), "at least 10"),
         (lambda: tail_of_peaks(np.arange(9.0), 1.0, quantile=1.0), "quantile = 1.0"),
         (lambda: tail_of_peaks(np.arange(9.0), 1.0, separation=0.1), "separation = 0.1 s"),

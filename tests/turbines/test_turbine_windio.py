@@ -82,6 +82,11 @@ def test_polars_of_the_nearest_reynolds_number_are_read(document, read, tmp_path
     np.testing.assert_allclose(found.airfoils["FFA-W3-211"].lift, read.airfoils["FFA-W3-211"].lift)
     (said,) = [text for text in found.assumed if text.startswith("airfoils")]
     assert "FFA-W3-211: polar of Re = 1e+07, of " in said
+    thin = read.airfoils["FFA-W3-211"]
+    own = {"angle": list(thin.angle), "lift": list(thin.lift), "drag": list(thin.drag)}
+    beside = {"airfoils": {"FFA-W3-211": own | {"thickness": thin.thickness}}}
+    stated = from_windio(tmp_path / "two.yaml", beside=beside)
+    assert not any(text.startswith("airfoils") for text in stated.assumed)
 
 
 def test_numbers_of_yaml_1_2_are_numbers(document, read, tmp_path):
@@ -110,9 +115,12 @@ def test_airfoils_that_the_blade_does_not_call_take_no_part_in_it(document, read
     foils = document["airfoils"]
     thin = next(foil for foil in foils if foil["name"] == "FFA-W3-211")
     document["airfoils"] = [halved(thin, "twin", 0.211), *foils, halved(thin, "between", 0.225)]
+    sets = document["airfoils"][-1]["polars"][0]["re_sets"]
+    sets.append(copy.deepcopy(sets[0]) | {"re": 4e7})
     found = from_windio(written(document, tmp_path / "database.yaml"))
     np.testing.assert_array_equal(lift_of_sections(found), lift_of_sections(read))
     assert found.airfoils["between"].thickness is None
+    assert not any(text.startswith("airfoils") for text in found.assumed)
 
 
 def test_of_two_airfoils_of_one_thickness_that_nearer_to_the_root_stands(document, read, tmp_path):
@@ -138,6 +146,7 @@ def test_configurations_of_an_airfoil_are_mixed_by_their_weights(document, read,
     assert not any(text.startswith("airfoils") for text in found.assumed)
     for change, says in (
         ({"weight": [0.6, 0.5]}, "weight = .* must add up to 1"),
+        ({"weight": [1.2, -0.2]}, "none may be negative"),
         ({"configuration": ["default", "smooth"]}, "no configuration 'smooth'"),
         ({"name": "FFA-W3-212"}, "no airfoil 'FFA-W3-212'"),
     ):

@@ -100,6 +100,7 @@ def test_bad_files_are_named(tmp_path):
         (16, "f", 0.0),
         (20, "f", np.inf),  # intensity of u
         (20, "f", -1.0),
+        (24, "f", 3e38),  # of v, which makes it infinite
         (32, "f", np.nan),  # dz
         (48, "f", np.nan),  # mean speed
         (72, "i", 1),  # one height: no profile can be fitted

@@ -74,8 +74,9 @@ def test_bad_files_are_named(box, tmp_path):
             30: (np.nan, np.inf, 0.0),  # mean speed
             34: (np.nan, 0.0, -90.0),  # hub
             38: (np.nan, -100.0),  # lowest line
-            42: (np.nan, np.inf, 0.0, -5.0),  # slope of u
+            42: (np.nan, np.inf, 0.0, -5.0, 1e-38),  # slope of u
             46: (np.nan, np.inf),  # its offset
+            50: (1e-38,),  # slope of v, which makes it infinite
         }.items()
         for value in values
     ],
@@ -99,6 +100,19 @@ def test_a_description_of_negative_length_is_refused(box, tmp_path):
         path.write_bytes(whole)
         with pytest.raises(InputError, match=r"not a \.bts file"):
             read_bts(path)
+
+
+def test_a_grid_that_begins_at_the_ground_has_finite_wind(box, tmp_path):
+    """With less wind above the exponent is negative, and the power of the ground infinite."""
+    path = tmp_path / "wind.bts"
+    write_bts(path, replace(box, shear_exponent=-0.1))
+    whole = bytearray(path.read_bytes())
+    struct.pack_into("<f", whole, 38, 0.0)
+    path.write_bytes(whole)
+    found = read_bts(path)
+    assert found.z[0] == 0.0
+    assert found.shear_exponent < 0
+    assert np.isfinite(found.u).all()
 
 
 def test_a_wind_from_behind_has_no_profile(box, tmp_path):
