@@ -11,7 +11,10 @@ from loadflow.errors import ValidityWarning
 from loadflow.journal import JournalBearing
 from loadflow.journal.film import cell_error
 from loadflow.journal.grid_bounds import BOUNDED
+from loadflow.journal.line import Line
 from loadflow.journal.models import composed_model, reduced
+from loadflow.journal.questions import AtRest
+from loadflow.numerics.convergence import Limits
 
 SPEED, QUANTITIES = 100.0, BOUNDED[1:]
 PARTS = {
@@ -121,6 +124,19 @@ def test_a_gap_that_even_cells_do_not_resolve_is_of_the_grid_by_sharp_laws_too(l
     assert abs(even.minimum_film / own.minimum_film - 1.0) > 0.15
     held = bearing.pressure(own.eccentricity, SPEED, film)
     np.testing.assert_allclose(held.force, load, atol=1e-6 * load[0])
+
+
+def test_a_narrow_gap_by_a_sharp_law_has_a_film_of_even_cells_where_none_may_refine():
+    """The heat balance of a series asks so: a load less would shift its temperature."""
+    film, geometry, _ = asked(("guembel",), "reduced")
+    film = replace(film, grid=(60, 12), grading="auto", inlet=None)
+    line, bearing = Line(), JournalBearing(**BEARING | {"shape": geometry.shape})
+    loads, limits = (
+        np.array([[1e3, 0.0], [1e7, 0.0]]),
+        Limits(1e-10, 60, strict=False, refine=False),
+    )
+    found = reduced.equilibrium(AtRest(bearing, film, loads, np.full(2, SPEED), line, limits))
+    assert found["converged"].all()
 
 
 def test_bounds_are_alike_those_of_the_grid():

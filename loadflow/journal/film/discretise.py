@@ -55,16 +55,15 @@ def is_cylindrical(bearing: JournalGeometry, film: Film, line: Line) -> bool:
     return not (bearing.shape.segments or bearing.relief or given) and line.straight
 
 
-def crowds_around(bearing: JournalGeometry, film: Film, line: Line) -> bool:
+def crowds_around(bearing: JournalGeometry, film: Film, line: Line, refine: bool) -> bool:
     """Whether the grid may crowd cells at a narrowest gap that even ones around do not resolve.
 
     By a smooth law it does so where they do not, by others from the beginning, about a shaft whose
-    gap is narrowest all along the bore.
+    gap is narrowest all along the bore: those are films of even cells where none may `refine`.
     """
     sharp = film.grading == "auto" and film.crowds and film.supply is None
-    return film.may_grade or (
-        sharp and film.contact is None and is_cylindrical(bearing, film, line)
-    )
+    plain = sharp and film.contact is None and is_cylindrical(bearing, film, line)
+    return film.may_grade or (refine and plain)
 
 
 def build_film(

@@ -91,7 +91,7 @@ class Positions:
         self, asked: AtPosition, across: int | None = None, viscosity: Thickness | None = None
     ) -> None:
         self.asked, self.across, self.viscosity = asked, across, viscosity
-        self._crowding = crowds_around(asked.bearing, asked.film, asked.line)
+        self._crowding = crowds_around(asked.bearing, asked.film, asked.line, asked.limits.refine)
         self.models: dict[tuple[int, int, int | None], ComposedFilm] = {}
         self.lines = self.model(asked.film.cells[0], 0, across).lines(asked.speed.size)
 

@@ -106,7 +106,7 @@ def films_at_rest(
     bearing, options, line = asked.bearing, asked.film, asked.line
     force, speed = asked.force, asked.speed
     model = build(bearing, options, speed, line, level, at_rest=True, viscosity=viscosity)
-    crowding = options.may_grade or (asked.limits.refine and crowds_around(bearing, options, line))
+    crowding = crowds_around(bearing, options, line, asked.limits.refine)
     work, count = model.work, speed.size
     rows = np.zeros((count, model.columns))
     both = 4 if model.whole else 2

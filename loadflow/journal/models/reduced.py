@@ -93,7 +93,7 @@ def equilibrium(asked: AtRest) -> dict[str, Any]:
     reduced, work = _discrete(bearing, options, film)
     half = float(film.mesh.z_edges[-1])
     count, bore, smooth = speed.size, Bore.of(bearing), options.law.smooth
-    crowding = options.may_grade or (control.refine and crowds_around(bearing, options, asked.line))
+    crowding = crowds_around(bearing, options, asked.line, control.refine)
     rows = np.zeros((count, at.RESULTS))
     stiffness, damping = np.zeros((count, 2, 2)), np.zeros((count, 2, 2))
     judged = Judged(reduced.ring, half_width_nodes(half, POINTS), False, count)
