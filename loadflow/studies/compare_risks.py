@@ -219,6 +219,35 @@ def mostly_exceeded(values: np.ndarray, weights: np.ndarray) -> float:
     return float(values[order][np.searchsorted(reached, BRIEF * reached[-1])])
 
 
+def spread_over(values: np.ndarray, weights: np.ndarray, count: int) -> np.ndarray:
+    """Places of the values in the middle of `count` parts of equal weight, in rising order.
+
+    They tell the quantiles of all values; as many spread over time miss those by chance.
+
+    Parameters
+    ----------
+    values, weights : array (n,)
+        Any order; weights of the same unit, not all 0. A value that weighs more than a part is
+        there several times.
+    count : int
+        Of parts.
+
+    Returns
+    -------
+    ndarray of int, shape (count,)
+        Places in `values`.
+
+    Examples
+    --------
+    >>> spread_over(np.array([3.0, 1.0, 2.0]), np.array([2.0, 1.0, 1.0]), 4).tolist()
+    [1, 2, 0, 0]
+    """
+    order = np.argsort(values, kind="stable")
+    reached = np.cumsum(weights[order])
+    middles = (np.arange(count) + 0.5) / count * reached[-1]
+    return np.asarray(order[np.searchsorted(reached, middles)])
+
+
 def _standing(scene: Scene, folder: Path, table: xr.Dataset, share: np.ndarray) -> Number:
     """Share of the lifetime in which the shaft stands, and the largest pressure meanwhile.
 
@@ -271,8 +300,8 @@ def _samples(
 ) -> Iterator[tuple[str, str, xr.Dataset]]:
     """Yield place, case and reduced samples of all rolling bearings that turn with the rotor.
 
-    They are spread over the case; the least and the most loaded, and the slowest, are there
-    besides, with no weight.
+    They are spread over the loads of the case, each for an equal share of its time; the least and
+    the most loaded, and the slowest, are there besides, with no weight.
     """
     for place, part in scene.rolling.bearings.items():
         if part.oscillation is not None:
@@ -281,14 +310,19 @@ def _samples(
             if path.stem not in cases:
                 continue
             samples = reduced_samples(path, place)
-            radial = to_rolling(samples["force"].transpose("sample", "axis").values)
-            size = np.linalg.norm(radial, axis=1)
-            speed = np.abs(samples["speed"].values)
-            order = {int(np.argmin(size)), int(np.argmin(speed)), int(np.argmax(size))}
-            spread = np.linspace(0, samples.sizes["sample"] - 1, _SPREAD).round().astype(int)
-            picked = sorted({*spread.tolist(), *order})
-            weight = samples["weight"].where(np.isin(np.arange(speed.size), spread), 0.0)
-            yield place, path.stem, samples.assign(weight=weight).isel(sample=picked)
+            force, moment = (
+                to_rolling(samples[name].transpose("sample", "axis").values)
+                for name in ("force", "moment")
+            )
+            size, speed = np.linalg.norm(force, axis=1), np.abs(samples["speed"].values)
+            ends = [int(np.argmin(size)), int(np.argmin(speed)), int(np.argmax(size))]
+            lever = scene.rolling.geometries[place].pitch_diameter / 2
+            load = size + np.linalg.norm(moment[:, :2], axis=1) / lever
+            time = samples["weight"].values.astype(float)
+            parts = np.bincount(spread_over(load, time, _SPREAD), minlength=load.size)
+            picked = np.union1d(np.flatnonzero(parts), ends)
+            shared = samples["weight"].copy(data=time.sum() / _SPREAD * parts)
+            yield place, path.stem, samples.assign(weight=shared).isel(sample=picked)
 
 
 _SPREAD = 48
