@@ -94,7 +94,10 @@ def read_bladed_box(
             f"steps of {dx} m at {speed} m/s"
         )
     if hub_height is None or intensity is None:
-        raise InputError(f"{path}: the file states no hub_height and intensity; give both")
+        raise InputError(
+            f"{path}: the file states no hub_height and intensity; give both to read_bladed_box; a "
+            "scene takes the .bts that write_bts makes of its box"
+        )
     most = LARGEST / (33 * speed)  # an integer counts up to 32.8 of it
     if not (0 < hub_height < np.inf and all(0 <= share < most for share in intensity)):
         raise InputError(
