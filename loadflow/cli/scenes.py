@@ -234,9 +234,9 @@ def plan(
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
     if wanted.candidates:
-        names = ", ".join(wanted.candidates)
+        listed = ", ".join(wanted.candidates)
         out.print(
-            f"candidates are no part of this plan: {names}; loadflow compare runs them",
+            f"candidates are no part of this plan: {listed}; loadflow compare runs them",
             soft_wrap=True, markup=False,
         )  # fmt: skip
     doubts = friction_note(wanted) if asks_for_friction(wanted) else ()
