@@ -454,3 +454,21 @@ def test_every_command_has_help_and_json(loadflow, command):
     code, out, _ = loadflow(command, "--help")
     assert code == 0
     assert "--json" in out
+
+
+def test_a_plan_of_a_scene_with_candidates_says_which_command_runs_them(loadflow, tmp_path):
+    scene = tmp_path / "scene.toml"
+    text = 'results = ["loads.statistics"]\n[loads]\nwind_speeds = [12]\nseeds = 1\n'
+    scene.write_text(text + "[candidates.two-spherical]\n")
+    assert "two-spherical; loadflow compare runs them" in loadflow("plan", scene)[1]
+    scene.write_text(text)
+    assert "loadflow compare" not in loadflow("plan", scene)[1]
+
+
+def test_a_turbine_known_by_its_power_alone_is_told_the_form_it_has(loadflow, tmp_path):
+    scene = tmp_path / "scene.toml"
+    scene.write_text("[turbine]\nrated_power = 3e6\nrotor_mass = 1e5\n")
+    code, _, said = loadflow("plan", scene)
+    assert code == 2
+    assert "turbine: rated_power, rotor_mass: a turbine is named" in said
+    assert 'name = "nrel-5mw@3e6"' in said

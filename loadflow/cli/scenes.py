@@ -233,6 +233,12 @@ def plan(
     _print_effects(made, measured=verdict is not None)
     for stage, why in made.left_out.items():
         out.print(f"left out: {stage} ({why})", soft_wrap=True)
+    if wanted.candidates:
+        listed = ", ".join(wanted.candidates)
+        out.print(
+            f"candidates are no part of this plan: {listed}; loadflow compare runs them",
+            soft_wrap=True, markup=False,
+        )  # fmt: skip
     doubts = friction_note(wanted) if asks_for_friction(wanted) else ()
     for warning in [*made.overloaded, *wanted.taken, *doubts, *unused_warnings(wanted)]:
         out.print(f"warning: {warning}", soft_wrap=True, markup=False)

@@ -389,6 +389,11 @@ class Rolling(FurtherBearing):
         return {name: part.geometry for name, part in self.bearings.items()}
 
     @property
+    def system_life(self) -> float:
+        """Life that all bearings are to have as a system, h: the shortest one asked of them."""
+        return min(part.limits.life for part in self.bearings.values())
+
+    @property
     def rung(self) -> Literal["rigid", "flexible"]:
         """Model in the ladder: flexible if the rings of any bearing are."""
         return "flexible" if any(b.rings == "flexible" for b in self.bearings.values()) else "rigid"

@@ -16,6 +16,12 @@ def _with_file(schema: dict[str, Any]) -> None:
     schema["properties"]["file"] = {"title": "File", "type": "string"}
 
 
+_MEASURES = {
+    "power", "rated_power", "mass", "rotor_mass", "speed", "rated_speed", "diameter", "radius",
+    "rotor_diameter", "hub_height",
+}  # fmt: skip
+
+
 class Turbine(Section, BaseModel):
     """The turbine: a name that `loadflow.turbines` knows, or a path to a file.
 
@@ -33,6 +39,12 @@ class Turbine(Section, BaseModel):
     @model_validator(mode="before")
     @classmethod
     def _from_file(cls, data: Any) -> Any:
+        if isinstance(data, dict) and (measures := sorted(_MEASURES & set(data))):
+            raise ValueError(
+                f"{', '.join(measures)}: a turbine is named, or has a file of its own "
+                "(docs/turbine-files.md); of one known by its power alone, "
+                'name = "nrel-5mw@3e6" is a first guess: 3e6 W by similarity'
+            )
         return named_by_file(data)
 
     @field_validator("name")

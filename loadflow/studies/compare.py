@@ -322,7 +322,7 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
     )
     share = shares_of(run, table)
     slope = float(table.attrs["weibull_slope"])
-    design = min(part.limits.life for part in run.scene.rolling.bearings.values())
+    design = run.scene.rolling.system_life
     for key, kind in (("modified_life", "modified_"), ("rating_life", "")):
         per_hour = damage_per_hour(table, kind).transpose("case", "bearing").values
         life = _years(per_hour, share, slope, np.arange(share.size))

@@ -14,7 +14,7 @@ import xarray as xr
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import modified_spectrum_life, system_life
 from loadflow.rolling.rating.life import rating_life_spectrum
-from loadflow.scene.bearings import FurtherBearing
+from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
@@ -142,7 +142,7 @@ def judge_design(
                     samples, around = shaft.lying(candidate, place, samples), shaft
                 _add_film(sums, candidate.journal.at(place), place, samples, around)
         if candidate.rolling is not None:
-            _add_rolling(sums, candidate.rolling.bearings, friction, spectrum, rises or {})
+            _add_rolling(sums, candidate.rolling, friction, spectrum, rises or {})
             if shaft is not None:
                 _add_tilts(sums, candidate, shaft, spectrum)
     except (SolverError, InputError) as error:
@@ -285,12 +285,13 @@ def _lives(turned: _Turned, wanted: float, factor: float) -> bool:
 
 def _add_rolling(
     sums: _Sums,
-    parts: Mapping[str, FurtherBearing],
+    rolling: Rolling,
     friction: Friction,
     spectrum: xr.DataTree,
     rises: Mapping[str, float],
 ) -> None:
     """Add what the rolling bearings lose, and how far their limits are."""
+    parts, limit = rolling.bearings, rolling.system_life
     lives: list[_Turned] = []
     for place, stated in parts.items():
         samples, own = spectrum[place].to_dataset(), friction.of(stated)
@@ -320,7 +321,6 @@ def _add_rolling(
     sums.extreme("rating_life", rating)
     sums.extreme("modified_life", modified)
     if len(lives) > 1:
-        limit = max(part.limits.life for part in parts.values())
         sums.margins["rating life of all bearings"] = largest_factor(
             lambda f: together(one.hours(f) for one in lives) >= limit
         )

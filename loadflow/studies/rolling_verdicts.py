@@ -96,9 +96,9 @@ def _lives(
     extreme = [row is not None and row.kind == "U" and row.dlc not in PRODUCTION for row in rows]
     if lifetime is None and all(extreme):
         return
-    part = scene.rolling if name is None else scene.rolling.bearings[name]
-    limit = part.limits.life
-    asked = [part] if name else [*scene.rolling.bearings.values()]
+    rolling = scene.rolling
+    limit = rolling.system_life if name is None else rolling.bearings[name].limits.life
+    asked = [rolling.bearings[name]] if name else [*rolling.bearings.values()]
     swings = any(one.oscillation is not None for one in asked)
     source = LIFE_SOURCE if limit == HOURS_20_YEARS else STATED
     for kind, what in (("", "rating life L10h"), ("modified_", "modified rating life L10mh")):

@@ -174,6 +174,26 @@ def test_the_stage_keeps_each_bearing_and_the_life_of_the_system():
     assert one["bearing_life_hours"].values[0] == pytest.approx(hours)
 
 
+@pytest.mark.parametrize("asked", [(1e5, 2e5), (2e5, 1e5)])
+def test_the_system_is_to_live_as_long_as_the_shortest_life_asked_of_its_bearings(asked):
+    first, second = ({"limits": {"life": life}} for life in asked)
+    chosen = main_bearings("cylindrical-tapered")
+    parts = [
+        stated | {"bearing": place, "geometry": geometry}
+        for stated, (place, geometry) in zip((first, second), chosen.items(), strict=True)
+    ]
+    scene = make_scene({"name": "x", "rolling": parts})
+    assert scene.rolling.system_life == 1e5
+    case = Case("1.1", 8.0, 1, 1.0)
+    tree = xr.DataTree.from_dict({place: reduced(place) for place in ("N", "N2")})
+    table = stage.summary({case: stage.load_distribution(scene, case, {"reduction": tree})})
+    judged = verdicts(scene, {"rolling": table}, run_lifetime(scene, {"rolling": table}))
+    limits = {
+        v.limit for v in judged if v.subject == "rolling, all as a system" and "life" in v.quantity
+    }
+    assert limits == {1e5}
+
+
 @given(st.integers(1, 30))
 @settings(max_examples=15, deadline=None)
 def test_bins_keep_revolutions_and_mean_load(bins):
