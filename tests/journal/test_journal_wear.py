@@ -8,6 +8,7 @@ import xarray as xr
 from scipy.integrate import solve_ivp
 
 import loadflow as lf
+from loadflow.cube.hdf5 import read_variables
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import (
     Contact,
@@ -353,6 +354,34 @@ def test_a_scene_wears_its_bearings_over_a_lifetime_of_starts(tmp_path):
     contact = run.tree["journal"].to_dataset()["contact_time"].values.ravel()
     assert worn["contact_time"].values[0] == pytest.approx(contact, rel=0.25)
     assert "Worn bores after the life" in run.report.read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+def test_little_wear_of_a_scene_is_that_of_its_film_by_hand(tmp_path):
+    """Asperities by a quadrature of their own, at all samples of the start, from its places."""
+    file, wear = tmp_path / "life.toml", {"law": {"coefficient": 1e-21}}
+    file.write_text(changed(wear=wear).to_toml(), encoding="utf-8")
+    scene = lf.read_scene(file)
+    run = lf.run(scene, out=tmp_path)
+    worn = run.tree["wear"]["N"].to_dataset().load()
+    (path,) = (run.report.parent / "journal").glob("*.h5")
+    film = read_variables(path, ("time", "speed", "eccentricity"), "N")
+    bore = scene.journal.at("N").geometry
+    heights, weights = np.polynomial.legendre.leggauss(200)
+
+    def pressure(gap, roughness=0.56e-6, scale=1e-3 * 46.5e9, tail=12.0):
+        low = np.minimum(gap / roughness, tail)[..., None]
+        tips = low + 0.5 * (tail - low) * (1.0 + heights)
+        height = (tips - low) ** 2.5 * np.exp(-0.5 * tips**2) / np.sqrt(2.0 * np.pi)
+        return scale * (0.5 * (tail - low)[..., 0]) * (height @ weights)
+
+    angle = 2.0 * np.pi * np.arange(3600) / 3600
+    way, slid = np.stack([np.cos(angle), np.sin(angle)]), np.abs(film["speed"].values) * bore.radius
+    pressed = np.stack([pressure(bore.clearance - e @ way) for e in film["eccentricity"].values])
+    work = np.trapezoid(pressed * slid[:, None], film["time"].values, axis=0)  # N/m of one start
+    assert worn["depth_of_bore"].max() == pytest.approx(1e-21 * 1e4 * work.max(), rel=0.01)
+    area = 2.0 * np.pi / angle.size * bore.radius * bore.width
+    assert worn.attrs["work"] == pytest.approx(1e4 * work.sum() * area, rel=0.01)
 
 
 @pytest.mark.parametrize(
