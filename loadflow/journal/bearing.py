@@ -24,7 +24,7 @@ from loadflow.journal.results import Equilibrium, FilmField, WarmEquilibrium
 from loadflow.journal.rows import shaped, start_rows, starts_of
 from loadflow.journal.solvers.search import searches
 from loadflow.journal.thermal import TOLERANCE, at_temperatures, shares, warm_film
-from loadflow.journal.validity import warn_if_turbulent
+from loadflow.journal.validity import warn_if_beyond_pressure, warn_if_turbulent
 from loadflow.journal.warm_orbit import warm_orbit
 from loadflow.numerics.convergence import Control, Limits
 from loadflow.numerics.fields import require
@@ -148,6 +148,7 @@ class JournalBearing(JournalGeometry):
             warn_if_turbulent(self, speeds, film.liquid, film.turbulence)
             answer = model.equilibrium(AtRest(self, film, loads, speeds, line, limits))
             warn_if_unresolved(answer)
+            warn_if_beyond_pressure(answer["maximum_pressure"])
             return Equilibrium(**shaped(answer, shape))
         if film.heat.over_area:
             require(weights is None, "weights", weights, "None with heat over the area")
@@ -155,6 +156,7 @@ class JournalBearing(JournalGeometry):
             thinnest = _hottest(film.heat, answer["maximum_temperature"])
             warn_if_turbulent(self, speeds, thinnest, film.turbulence)
             warn_if_unresolved(answer)
+            warn_if_beyond_pressure(answer["maximum_pressure"])
             return FilmHeatEquilibrium(**shaped(answer, shape))
 
         each = replace(limits, strict=False)
@@ -183,6 +185,7 @@ class JournalBearing(JournalGeometry):
         thinnest = _hottest(film.heat, answer["temperature"])
         warn_if_turbulent(self, speeds, thinnest, film.turbulence)
         warn_if_unresolved(answer)
+        warn_if_beyond_pressure(answer["maximum_pressure"])
         return WarmEquilibrium(**shaped(answer, shape))
 
     def pressure(
@@ -224,7 +227,7 @@ class JournalBearing(JournalGeometry):
         Warns
         -----
         ValidityWarning
-            The cells do not resolve the film.
+            The cells do not resolve the film, or its pressure is beyond 0.5 GPa.
 
         Raises
         ------
@@ -246,6 +249,7 @@ class JournalBearing(JournalGeometry):
         asked = AtPosition(self, film, places, velocities, speeds, line, limits)
         found, z = model.pressure(asked)
         warn_if_unresolved(found)
+        warn_if_beyond_pressure(found["maximum_pressure"])
         kind = FilmField if film.heat is None else FilmHeatField
         return kind(z=z, **shaped(found, shape))
 
@@ -339,7 +343,8 @@ class JournalBearing(JournalGeometry):
         Warns
         -----
         ValidityWarning
-            The cells do not resolve the narrowest film of the path.
+            The cells do not resolve the narrowest film of the path, or its pressure is beyond
+            0.5 GPa.
 
         Raises
         ------
@@ -368,6 +373,8 @@ class JournalBearing(JournalGeometry):
             follow = partial(warm_orbit, model)
         path = follow(InMotion(self, film, times, loads, speeds, line, limits, steps))
         warn_if_path_unresolved(path)
+        if "maximum_pressure" in path:
+            warn_if_beyond_pressure(path["maximum_pressure"])
         return path
 
 

@@ -109,9 +109,13 @@ def resolved(relative: Array, converged: NDArray[np.bool_]) -> NDArray[np.bool_]
 
 @contextmanager
 def unresolved_counted() -> Iterator[None]:
-    """Where whoever asks keeps the bounds of every sample, or needs a rough number: no warning."""
+    """Where whoever asks keeps bound and pressure of every sample, or needs a rough number.
+
+    No warning of these is given.
+    """
     with warnings.catch_warnings():
-        warnings.filterwarnings("ignore", "the cells do not resolve", ValidityWarning)
+        for what in ("the cells do not resolve", "the pressure of"):
+            warnings.filterwarnings("ignore", what, ValidityWarning)
         yield
 
 

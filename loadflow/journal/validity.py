@@ -1,4 +1,4 @@
-"""Whether the flow in the gap is laminar, as every film without `Turbulence` supposes."""
+"""Whether a film is laminar, and its pressure one that shell and oil bear."""
 
 from __future__ import annotations
 
@@ -15,6 +15,11 @@ if TYPE_CHECKING:
     from loadflow.journal.lubricant import Lubricant
 
 Array = NDArray[np.float64]
+
+LARGEST_PRESSURE = 0.5e9
+"""Pa, where the pressures of hard elastohydrodynamic contacts begin, 0.5 … 3 GPa in [Hamrock,
+Schmid and Jacobson]: no shell of a journal bearing bears them, steel surfaces flatten, and the law
+of [Barus 1893] is far too high."""
 
 
 def reynolds_number(bearing: JournalGeometry, speed: ArrayLike, lubricant: Lubricant) -> Array:
@@ -53,6 +58,26 @@ def warn_if_turbulent(
             f"Re = {largest:.4g} reaches Re_cr = {critical:.4g} (3.14) at ω = "
             f"{np.max(np.abs(speed)):.4g} rad/s: the laminar film underestimates friction and "
             "load; a film with turbulence = Turbulence(), in a scene turbulence = {}, does not",
+            ValidityWarning,
+            stacklevel=3,
+        )
+
+
+def warn_if_beyond_pressure(pressure: ArrayLike) -> None:
+    """Warn of films whose largest `pressure`, Pa, is beyond `LARGEST_PRESSURE`; NaN counts not.
+
+    Warns
+    -----
+    loadflow.errors.ValidityWarning
+        How many are, and the largest pressure.
+    """
+    largest = np.atleast_1d(np.asarray(pressure, dtype=float)).ravel()
+    beyond = int((largest > LARGEST_PRESSURE).sum())
+    if beyond:
+        warnings.warn(
+            f"the pressure of {beyond} of {largest.size} films is beyond what oil and shell bear, "
+            f"p_max = {np.nanmax(largest) / 1e6:,.0f} MPa > {LARGEST_PRESSURE / 1e6:.0f} MPa: "
+            "check load, clearance and roughness; `contact` lets asperities take a share",
             ValidityWarning,
             stacklevel=3,
         )

@@ -165,7 +165,7 @@ def wear_bearing(
     for _ in range(wear.max_renewals):
         now = surface.worn(depth)
         runs = [
-            _Run(cycle, followed(now, cycle, replace(film, contact=rough), control, offset))
+            _Run(*followed(now, cycle, replace(film, contact=rough), control, offset))
             for cycle, offset in zip(cycles, offsets)
         ]
         rows.append(_told(life, depth, surface, rough, runs))
@@ -235,7 +235,7 @@ def _checked(bearing: JournalBearing, cycles: Sequence[Cycle], film: Film, wear:
 
 @dataclass(frozen=True)
 class _Run:
-    """A cycle in the bore as it is worn, as `followed`."""
+    """A cycle in the bore as it is worn, at the times at which it was `followed`."""
 
     cycle: Cycle
     found: dict[str, Array]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any
 
 import numpy as np
@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 
 _PARTS = (1, 2, 4, 8, 16)  # steps in motion from each sample of a cycle to the next
 _SETTLED = 0.01  # error of the friction energy of a cycle by its steps
+_WIDE = 1.0  # m, wider than any film, of a shaft that never turns
 
 
 @dataclass(frozen=True)
@@ -37,9 +38,9 @@ class Cycle:
     count : float
         How often it happens in the whole time that is looked at.
     in_motion : bool
-        Follow the shaft through time, squeeze included, in up to 16 steps a sample, until its
-        asperities are known to rub to 1 % at the samples (a warning tells where they are not);
-        what touches between two samples is not seen. Else each sample is an equilibrium.
+        Follow the shaft through time, squeeze included, in up to 16 steps a sample, until the
+        friction energy of its asperities is known to 1 % (a warning tells where it is not); loads
+        and speed are straight lines between the samples. Else each sample is an equilibrium.
     tilt, bend : array (n, 2), optional
         How the shaft lies, rad and 1/m, as in `JournalBearing.orbit`.
     name : str
@@ -94,6 +95,13 @@ class Cycle:
         steps = np.diff(self.time)
         return 0.5 * (np.append(steps, 0.0) + np.append(0.0, steps))
 
+    def divided(self, parts: int) -> Cycle:
+        """The same event with `parts` samples in place of each, on straight lines between them."""
+        place = np.arange((self.time.size - 1) * parts + 1) / parts
+        given = {"time": self.time, "force": self.force, "speed": self.speed} | self.line()
+        finer: dict[str, Any] = {key: _between(place, values) for key, values in given.items()}
+        return replace(self, **finer)
+
     def line(self, some: slice = slice(None)) -> dict[str, Any]:
         """How the shaft lies at `some` of the times, by the keywords of `JournalBearing.orbit`."""
         lines = {"tilt": self.tilt, "bend": self.bend}
@@ -110,19 +118,21 @@ def followed(
     film: Film,
     control: Control | None = None,
     offset: Array | None = None,
-) -> dict[str, Array]:
+) -> tuple[Cycle, dict[str, Array]]:
     """Follow a cycle, first by `offset` (2,), m, from rest, or solve each of its samples.
 
-    Arrays (n, …) by names of `JournalBearing.orbit`; `loadflow.errors.SolverError` names the cycle.
+    The cycle at the times that were solved, between its samples, too, and arrays (n, …) of these
+    by names of `JournalBearing.orbit`; `loadflow.errors.SolverError` names the cycle.
     """
-    line = cycle.line()
+    start = None
     if offset is not None:
-        line["start"] = _first_place(bearing, cycle, film, control) + offset
+        start = _first_place(bearing, cycle, film, control) + offset
     try:
         if cycle.in_motion:
-            return _path(bearing, cycle, film, control, line)
-        rest = bearing.equilibrium(cycle.force, cycle.speed, film, control=control, **line)
-        return {name: np.asarray(getattr(rest, name)) for name in _FOLLOWED}
+            return _path(bearing, cycle, film, control, start)
+        given, line = (cycle.force, cycle.speed), cycle.line()
+        rest = bearing.equilibrium(*given, film, control=control, **line)
+        return cycle, {name: np.asarray(getattr(rest, name)) for name in _FOLLOWED}
     except SolverError as error:
         raise SolverError(f"{cycle.name}: {error}") from error
 
@@ -132,26 +142,29 @@ def _path(
     cycle: Cycle,
     film: Film,
     control: Control | None,
-    line: dict[str, Any],
-) -> dict[str, Array]:
-    """A cycle in motion at its times, in steps so short that its friction energy settles.
+    start: Array | None,
+) -> tuple[Cycle, dict[str, Array]]:
+    """A cycle in motion, in steps so short that its friction energy settles.
 
-    A shaft leaves its asperities faster than the samples of a start tell: in one step for each
-    sample a third of the energy may be missing. Steps of one length need no rest to go on from.
+    A shaft leaves its asperities faster than the samples of a start tell, or meets them between
+    two of these. Steps of one length need no rest to go on from.
     """
-    energy, found = np.nan, dict[str, Array]()
+    reach = 0.0 if film.contact is None else film.contact.asperities.reach
+    energy = narrow = np.nan
     for parts in _PARTS:
-        place = np.arange((cycle.time.size - 1) * parts + 1) / parts
-        given = {"force": cycle.force, "speed": cycle.speed} | cycle.line()
-        finer: dict[str, Any] = {
-            key: _between_samples(place, values) for key, values in given.items()
-        }
-        finer |= {key: values for key, values in line.items() if key == "start"}
-        time = _between_samples(place, cycle.time)
-        path = bearing.orbit(time, film=film, control=control, **finer)
-        found = {name: path[name].values[::parts] for name in _FOLLOWED}
-        before, energy = energy, float(cycle.seconds @ found["contact_power"])
-        if abs(energy - before) <= 3.0 * _SETTLED * energy:  # steps are of second order
+        finer = cycle.divided(parts)
+        given: dict[str, Any] = {"force": finer.force, "speed": finer.speed} | finer.line()
+        given |= {} if start is None else {"start": start}
+        path = bearing.orbit(finer.time, film=film, control=control, **given)
+        found = {name: path[name].values for name in _FOLLOWED}
+        before, energy = energy, float(finer.seconds @ found["contact_power"])
+        turns = np.abs(finer.speed) > 0.0
+        wider, narrow = narrow, float(found["minimum_film"][turns].min(initial=_WIDE))
+        if energy > 0.0:
+            settled = abs(energy - before) <= 3.0 * _SETTLED * energy  # steps are of second order
+        else:  # a film that comes no nearer between its steps than they tell
+            settled = narrow - abs(narrow - wider) > reach
+        if settled:
             break
     else:
         warnings.warn(
@@ -160,10 +173,10 @@ def _path(
             ValidityWarning,
             stacklevel=2,
         )
-    return found
+    return finer, found
 
 
-def _between_samples(place: Array, values: Array) -> Array:
+def _between(place: Array, values: Array) -> Array:
     """Values (n, …) at places counted in samples, on straight lines."""
     known = np.arange(len(values))
     columns = values.reshape(len(values), -1).T

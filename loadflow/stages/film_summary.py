@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.critical import Critical
 from loadflow.journal.grid_bounds import UNRESOLVED
+from loadflow.journal.validity import LARGEST_PRESSURE
 from loadflow.quantities import GRID_ERROR, percent
 from loadflow.scene.cases import Case
 from loadflow.stages.labelling import labelled
@@ -177,11 +178,28 @@ WHIRLS = 0.05
 
 
 def warnings(tree: xr.DataTree) -> list[str]:
-    """Say in which load cases the cells do not resolve the film, or have to end its whirl."""
+    """Say in which load cases the film is not resolved, whirls, or is beyond its equations."""
     if "journal" not in tree.children:
         return []
     table = tree["journal"].to_dataset()
-    return [*_unresolved(table), *_whirls(table)]
+    return [*_unresolved(table), *_whirls(table), *_beyond_pressure(table)]
+
+
+def _beyond_pressure(table: xr.Dataset) -> Iterator[str]:
+    """Where the pressure is beyond what oil and shell bear."""
+    if "largest_pressure" not in table:
+        return
+    for bearing in table["bearing"].values:
+        peak = table["largest_pressure"].sel(bearing=bearing)
+        some = int((peak > LARGEST_PRESSURE).sum())
+        if some:
+            worst = int(peak.fillna(0.0).argmax("case"))
+            yield (
+                f"journal, bearing {bearing}: the pressure is beyond what oil and shell bear, "
+                f"{LARGEST_PRESSURE / 1e6:.0f} MPa, in {some} of {peak.size} load cases, "
+                f"{float(peak[worst]) / 1e6:,.0f} MPa in {table['case'].values[worst]}; check "
+                "loads and clearance; journal.contact lets asperities take a share"
+            )
 
 
 def _whirls(table: xr.Dataset) -> Iterator[str]:

@@ -68,10 +68,10 @@ class Rubbing:
         film = self._warm(options).film_model
         try:
             with unresolved_counted():  # the run has told of them
-                found = followed(options.geometry, self.cycle, film, offset=self.offset)
+                cycle, found = followed(options.geometry, self.cycle, film, offset=self.offset)
         except SolverError:
             return math.nan
-        return float(self.cycle.seconds @ found["contact_power"])
+        return float(cycle.seconds @ found["contact_power"])
 
     def _warm(self, options: Journal) -> Journal:
         if options.heat is None:

@@ -1,6 +1,7 @@
 """Bounds that a solved film gives of what its own cells do."""
 
 import dataclasses
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -27,6 +28,7 @@ from loadflow.journal import (
     Supply,
     ThrustBearing,
 )
+from loadflow.journal.solvers import assembly_error
 from loadflow.tribology import AsperityContact, ExponentialOil
 
 OIL = Lubricant(0.03)
@@ -163,6 +165,17 @@ def test_films_of_pads_bound_the_error_of_their_cells(kind):
     assert own.grid_error.minimum_film < 0.2 * own.minimum_film
     assert float(own.to_dataset().minimum_film_grid_error) == own.grid_error.minimum_film
     assert own.resolved
+
+
+def test_what_pads_lack_alike_does_not_add_up(monkeypatch):
+    """A pad closes as far as its film gives way less what the shaft yields to all of them."""
+    bearing, film = PADS["tilting pads"], Film(OIL, Guembel(), 1e5, grid=(20, 10))
+    own = bearing.equilibrium(force=1e6, speed=10.0, film=film)
+    fine = bearing.equilibrium(force=1e6, speed=10.0, film=replace(film, grid=(60, 30)))
+    monkeypatch.setattr(assembly_error, "_UNLIKE", 1.0)  # whatever the sign
+    apart = bearing.equilibrium(force=1e6, speed=10.0, film=film)
+    assert own.grid_error.minimum_film < 0.4 * apart.grid_error.minimum_film
+    assert abs(own.minimum_film - fine.minimum_film) < own.grid_error.minimum_film
 
 
 def test_two_cones_bound_the_error_of_their_cells():

@@ -163,6 +163,16 @@ def test_a_whirl_is_told_with_its_share_of_the_time():
     assert "2 of 2 load cases, start for 96 %" in said
 
 
+def test_a_pressure_that_neither_oil_nor_shell_bears_is_told_with_its_load_case():
+    table = xr.Dataset(
+        {"largest_pressure": (("bearing", "case"), [[4.9e8, np.nan], [2e7, 28.6e9]])},
+        {"bearing": ["N", "N2"], "case": ["calm", "start"]},
+    )
+    (said,) = warnings(xr.DataTree.from_dict({"journal": table}))
+    assert "bearing N2" in said
+    assert "500 MPa, in 1 of 2 load cases, 28,600 MPa in start" in said
+
+
 def whirl_row(shares):
     """The row of a comparison of films that whirl for a share of each load case; None at rest."""
     count = len(shares)

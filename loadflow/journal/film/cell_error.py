@@ -321,10 +321,14 @@ class SurfaceError:
         self._left = _NODES * film.radius**2 * left
         self._around, self._across = gap.pressed, gap.across * mesh.carrying
 
-    def missing(self, rows: Array) -> Array:
-        """Bounds (l,) of what combinations `rows` (l, m) of the loads on the film lack, N."""
+    def missing(self, rows: Array) -> tuple[Array, Array]:
+        """What combinations `rows` (l, m) of the loads on the film lack, N: (l,) and at most (l,).
+
+        The first as if the cells left out of the pressure what has one sign all over.
+        """
         modes = np.einsum("lj,ji,jk->lik", rows, self._around, self._across)
-        return np.asarray(np.einsum("ik,lik->l", self._left, np.abs(modes)))
+        signed = np.einsum("ik,lik->l", self._left, modes)
+        return signed, np.einsum("ik,lik->l", self._left, np.abs(modes))
 
 
 def drag_error(shear: float, gap: float) -> float:

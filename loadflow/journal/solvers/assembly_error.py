@@ -13,6 +13,10 @@ from loadflow.journal.solvers.assembly_member import BODY, AssemblyState, Member
 
 Array = NDArray[np.float64]
 
+# of what films lack at most, where they lack it of unlike signs: pads whose cells are alike lack
+# load of the same sign, which leaves a shaft between them where it is
+_UNLIKE = 0.3
+
 
 class _Part(NamedTuple):
     """A film whose pad follows its load.
@@ -48,7 +52,7 @@ def relative_errors(assembly: Assembly, members: slice, state: AssemblyState) ->
         force += np.sum(found, axis=0)[:3]
         for turn in part.member.turns:
             rows = (turn.T @ part.member.attached.T @ part.kept)[held]
-            lost[held] += part.member.unit * part.error.missing(rows)
+            lost[held] += part.member.unit * part.error.missing(rows)[1]
     size = float(np.linalg.norm(force))
     share = float(np.linalg.norm(lost)) / size if size > 0.0 else 0.0
     return np.array([share, thin, peak + thin, drag_error(shear, thin)])
@@ -88,14 +92,15 @@ def _closing(parts: list[_Part], here: _Part, response: Array) -> float:
     facing = member.film.gap.facing(here.place)
     own = facing @ here.left @ member.attached @ member.turns[0]
     by_shaft = own @ response
-    total = 0.0
+    signed, most = 0.0, 0.0
     for part in parts:
         for number, turn in enumerate(part.member.turns):
             row = part.member.unit * by_shaft @ turn.T @ part.member.attached.T @ part.kept
             if part is here and number == 0:
                 row = row - facing @ here.yields
-            total += float(part.error.missing(row[None])[0])
-    return total
+            lacks, at_most = part.error.missing(row[None])
+            signed, most = signed + float(lacks[0]), most + float(at_most[0])
+    return max(abs(signed), _UNLIKE * most)
 
 
 def _inverse(matrix: Array) -> Array:

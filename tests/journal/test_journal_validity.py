@@ -1,0 +1,36 @@
+"""Films beyond what their equations suppose warn."""
+
+import warnings
+from functools import partial
+
+import numpy as np
+import pytest
+
+from loadflow.errors import ValidityWarning
+from loadflow.journal import Film, JournalBearing, Lubricant
+from loadflow.journal.validity import LARGEST_PRESSURE
+
+BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+PRESSED = "the pressure of 1 of 2 films is beyond what oil and shell bear, p_max = "
+
+
+@pytest.mark.parametrize("rung", ["grid", "reduced"])
+@pytest.mark.parametrize("asked", ["equilibrium", "pressure", "orbit"])
+def test_a_pressure_that_neither_oil_nor_shell_bears_is_told(rung, asked):
+    film = Film(Lubricant(1.0), rung=rung, grid=(96, 12), inlet=None)
+    places, loads = [(1e-5, 0.0), (9.9e-5, 0.0)], [(1e5, 0.0), (2e7, 0.0)]
+    ask = {
+        "equilibrium": partial(BEARING.equilibrium, loads, 300.0, film),
+        "pressure": partial(BEARING.pressure, places, 300.0, film),
+        "orbit": partial(BEARING.orbit, [0.0, 1.0], loads, [300.0, 300.0], film),
+    }[asked]
+    with pytest.warns(ValidityWarning, match=PRESSED):
+        found = ask()
+    peaks = np.asarray(found.maximum_pressure)
+    assert peaks[0] < LARGEST_PRESSURE < peaks[1]
+
+
+def test_films_of_today_are_not_warned_of():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        BEARING.equilibrium((2e5, 0.0), 100.0, Film(Lubricant(0.05), grid=(96, 16)))
