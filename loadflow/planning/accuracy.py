@@ -97,6 +97,7 @@ def _reaches(scene: Scene, result: str, quantity: str, effect: Effect) -> bool:
 _FEW = {
     "friction power": "friction power",
     "friction torque": "friction power",
+    "catalogue torque": "friction power",
     "film parameter": "film parameter",
     "smallest load": "equivalent load",
 }

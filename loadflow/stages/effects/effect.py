@@ -48,6 +48,9 @@ class Effect:
         moves most, with a margin over what ``python -m benchmarks.ladder.indicators`` finds.
     smaller : float
         The indicator over the effect, at most; the same.
+    either_way : tuple of str
+        Quantities that it raises in one bearing and lowers in another, and so may leave as they
+        are: of these the indicator is a bound from above alone.
     out : str
         What is left out, and why, for the plan.
     needs : str
@@ -96,6 +99,7 @@ class Effect:
     solves: bool = False
     larger: Callable[[Scene], float] = lambda scene: UNSURE
     smaller: float = 4.0
+    either_way: tuple[str, ...] = ()
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
     also: tuple[str, ...] = ()
     probe: str = ""
