@@ -6,6 +6,7 @@ import pytest
 from benchmarks.ladder import indicators, physics_sizes
 from benchmarks.ladder.physics import PAGE, kept_so_far
 from loadflow.planning.pilot import Questions, measure
+from loadflow.planning.plan import make_plan
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, BearingSupport, ShaftSection, TwoPoint, bearing_loads
@@ -85,6 +86,39 @@ def test_a_film_feels_more_where_a_bent_shaft_closes_the_ends_of_its_bearing(sce
 @pytest.fixture(scope="module")
 def measured():
     return [*indicators.pairs(kept_so_far())]
+
+
+def test_what_preload_alone_holds_feels_rings_more_than_what_a_moment_presses():
+    """N2 beside a cylindrical bearing in light wind, and the pair that takes the moment."""
+
+    def told(kind, speed):
+        loads = {"wind_speeds": [speed], "seeds": 1}
+        results = ["rolling.friction"]
+        scene = make_scene({"name": "s", "bearings": [kind], "loads": loads, "results": results})
+        return rolling.RINGS.indicator(situation(scene, list_cases(scene)))["friction power"]
+
+    assert told("cylindrical-tapered", 4.0) > 0.58
+    assert told("tapered-pair", 4.0) < 0.25
+    assert told("cylindrical-tapered", 24.0) < 0.25
+
+
+def test_friction_alone_takes_elastic_rings_where_its_accuracy_asks_for_them():
+    """And tells what rigid ones leave out where a scene has these by name."""
+
+    def planned(**rolling_keys):
+        loads = {"wind_speeds": [4.0], "seeds": 1, "duration": 120.0}
+        keys = {"bearings": ["cylindrical-tapered"], "results": ["rolling.friction"]}
+        scene = make_scene({"name": "s", "loads": loads} | keys)
+        if rolling_keys:
+            scene = rolling.each_bearing(scene, "rings", lambda part: rolling_keys["rings"])
+        return make_plan(scene)
+
+    free, held = planned(), planned(rings="rigid")
+    assert free.scene.rolling.rung == "flexible"
+    assert free.accurate
+    assert held.scene.rolling.rung == "rigid"
+    assert held.errors["rolling.friction"]["friction power"] > 0.5
+    assert "elastic rings left out" in held.shortfalls[0]
 
 
 def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_measured(measured):

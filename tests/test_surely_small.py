@@ -42,10 +42,9 @@ def plan():
     return make_plan(read_scene(QUICK))
 
 
-def with_accuracy(scene, loads, life):
-    return scene.model_copy(
-        update={"accuracy": {**scene.accuracy, "rolling.loads": loads, "rolling.life": life}}
-    )
+def with_accuracy(scene, loads, life, friction=2.0):
+    asked = {"rolling.loads": loads, "rolling.life": life, "rolling.friction": friction}
+    return scene.model_copy(update={"accuracy": {**scene.accuracy, **asked}})
 
 
 def test_rigid_rings_are_sure_where_their_indicator_is_surely_within_the_accuracy(plan):
@@ -56,9 +55,16 @@ def test_rigid_rings_are_sure_where_their_indicator_is_surely_within_the_accurac
         rings = replace(RINGS, larger=lambda scene, doubt=doubt: doubt)
         force = plan.errors["rolling.loads"]["maximum force"] + (doubt - 1) * sizes["maximum force"]
         life = plan.errors["rolling.life"]["life"] + (doubt - 1) * sizes["life"]
-        for loads, lives, sure in ((1.01, 1.01, True), (0.99, 1.01, False), (1.01, 0.99, False)):
-            scene = with_accuracy(plan.scene, loads * force, lives * life)
-            assert surely_small(scene, rings, estimates(scene, stages, plan.cases)) == sure
+        lost = max(
+            error + (doubt - 1) * sizes[name]
+            for name, error in plan.errors["rolling.friction"].items()
+        )
+        wanted = force, life, lost
+        for short in (None, 0, 1, 2):
+            allowed = [(0.99 if k == short else 1.01) * error for k, error in enumerate(wanted)]
+            scene = with_accuracy(plan.scene, *allowed)
+            found = surely_small(scene, rings, estimates(scene, stages, plan.cases))
+            assert found == (short is None)
     assert not surely_small(
         plan.scene, SLICED, estimates(plan.scene, stages, plan.cases)
     )  # it is in

@@ -29,10 +29,13 @@ from benchmarks.ladder.measuring import (
 )
 from benchmarks.ladder.thrust import cone_gains, thrust_gains
 from loadflow.scene.cases import Case
+from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Rolling, Scene
 from loadflow.stages import reduction, rolling
 from loadflow.stages.frames import to_film, to_rolling
+from loadflow.stages.friction import least_film_parameter, mean_of_loaded
+from loadflow.stages.rolling_at_work import friction_options
 
 FILM = ("eccentricity_ratio", "minimum_film", "maximum_pressure", "friction_power", "side_flow")
 LIFE_EXPONENT = 3.0  # of point contacts, (4.2)
@@ -339,7 +342,23 @@ def _ring_errors(bench: Bench, rings: Any, reference: Any, samples: int) -> dict
             errors.add("stiffness", where, *stiff)
             lives = ours.equivalent_load[i], best.equivalent_load[i]
             errors.add("life", where, *(load**LIFE_EXPONENT for load in lives))
+        speed = parts["loads"]["speed"].values[some].astype(float)
+        lost, least = (_ideal_losses(answer, speed) for answer in (ours, best))
+        for quantity, value in lost.items():
+            scale = 1.0 if quantity == "slip" else None
+            errors.add(quantity, label(case), value, least[quantity], scale)
     return errors.summary()
+
+
+def _ideal_losses(answer: Any, speed: np.ndarray) -> dict[str, float]:
+    """Mean friction, film and slip of balls in ideal rolling, as a run tells them."""
+    lost = answer.friction(speed, friction_options(Friction(), answer.bearing))
+    least = least_film_parameter(lost.film_parameter, answer.element_forces)
+    return {
+        "friction power": float(lost.power.mean()),
+        "film parameter": float(np.median(least)),
+        "slip": float(mean_of_loaded(lost.sliding, answer.element_forces).mean()),
+    }
 
 
 def _evened(stiffness: np.ndarray, bearing: Any) -> np.ndarray:

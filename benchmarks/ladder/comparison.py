@@ -42,7 +42,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
 from loadflow.stages import friction, thrust
 from loadflow.stages.frames import to_rolling
-from loadflow.studies.compare_friction import Losses, rolling_losses
+from loadflow.studies.compare_friction import OWN_TORQUE, Losses, rolling_losses
 from loadflow.studies.compare_margins import load_by_row, lubrication, row_shares, solved
 from loadflow.studies.compare_numbers import Finished
 from loadflow.studies.compare_risks import LIGHT, mostly_exceeded, rolling_risks
@@ -221,8 +221,10 @@ def _compare(
         ours, best = few.power.sel(at).sum(), whole["mean_friction_power"].sel(at)
         errors.add("friction power", place, float(ours), float(best))
         for name, torque in few.torques.items():
-            best = whole[f"mean_{name}"].sel(at)
-            errors.add("friction torque", place, float(torque.sel(at).sum()), float(best))
+            best, own = whole[f"mean_{name}"].sel(at), name == OWN_TORQUE
+            told = "friction torque" if own else "catalogue torque"
+            of = place if own else f"{place}, {name}"
+            errors.add(told, of, float(torque.sel(at).sum()), float(best))
     thin = min(_thin_at_low_speed(followed).values())
     errors.add("film parameter", run.name, few.film_parameter, thin)
     share = np.full(table.sizes["case"], 1 / table.sizes["case"])

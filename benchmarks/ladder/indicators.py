@@ -9,20 +9,22 @@ anew, so that a change of one shows at once. ``--all`` prints each pair, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 from benchmarks.common import arguments, head, put, row
 from benchmarks.ladder.physics import PAGE, kept_so_far
+from benchmarks.ladder.physics_losses import machines
 from benchmarks.ladder.physics_scenes import PER_PLACE, jobs_asked, seated, ten_scenes
-from loadflow.planning.effects import estimates
+from loadflow.planning.effects import concerned
 from loadflow.planning.plan import needed_stages
 from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.shaft import STIFFNESS
+from loadflow.stages.effects.situation import situation
 from loadflow.stages.registry import STAGES
 from loadflow.stages.turning import always_turns
 
@@ -68,14 +70,18 @@ class Pair:
     @property
     def within(self) -> bool:
         """Whether the factor is one that the effect allows for."""
-        return not self.counts or 1.0 / self.larger <= self.factor <= self.effect.smaller
+        if not self.counts or self.factor < 1.0 / self.larger:
+            return not self.counts
+        return self.quantity in self.effect.either_way or self.factor <= self.effect.smaller
 
 
-def indicated(scene: Scene) -> Mapping[str, Sizes]:
-    """What the indicators say of a scene, by effect."""
+def indicated(scene: Scene, names: Container[str]) -> Mapping[str, Sizes]:
+    """What the indicators of some effects say of a scene, by effect."""
     needed = needed_stages(scene)
     stages = [name for name in STAGES if name in needed]
-    return estimates(scene, stages, tuple(list_cases(scene))).indicators
+    at = situation(scene, tuple(list_cases(scene)))
+    effects = concerned(scene, stages)
+    return {effect.name: effect.indicator(at) for effect in effects if effect.name in names}
 
 
 def pairs(kept: dict[str, Any]) -> Iterator[Pair]:
@@ -89,14 +95,14 @@ def pairs(kept: dict[str, Any]) -> Iterator[Pair]:
         for seat, sizes in one["sizes"].items():
             load = {name: size for name, size in sizes.items() if name == "bearing load max"}
             yield from _beside(f"{seat}, {one['turbine']}", scenes[seat], {STIFFNESS.name: load})
-    scenes = ten_scenes() | jobs_asked()
-    for one in [*kept.get("scenes", []), *kept.get("jobs", [])]:
+    scenes = ten_scenes() | jobs_asked() | machines()
+    for one in [found for part in ("scenes", "jobs", "losses") for found in kept.get(part, [])]:
         found = {effect["name"]: effect["size"] or {} for effect in one["effects"]}
         yield from _beside(one["scene"], scenes[one["scene"]], found)
 
 
 def _beside(place: str, scene: Scene, measured: Mapping[str, Sizes]) -> Iterator[Pair]:
-    said, turns = indicated(scene), always_turns(scene)
+    said, turns = indicated(scene, measured), always_turns(scene)
     for effect in EFFECTS:
         if effect.name not in said:
             continue

@@ -21,6 +21,7 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments, put
 from benchmarks.ladder.__main__ import DOC, WHOLE_RUNS
+from benchmarks.ladder.physics_losses import loss_table, losses
 from benchmarks.ladder.physics_page import (
     draw_front,
     draw_sizes,
@@ -81,6 +82,7 @@ PARTS: dict[str, Callable[[Found], Found]] = {
     **BESIDE,
     "scenes": scenes,
     "jobs": jobs,
+    "losses": losses,
     "runs": runs,
 }
 """What is measured."""
@@ -91,6 +93,17 @@ SCENES = """## Scenes, and what the plan keeps of them
 Accuracy of 5 % where nothing else is said; DLC 1.1 at 12 m/s, or as named. After each effect that
 the pilot measured: what leaving it out changes most. What a scene has no data for, or what moves
 nothing by 0.1 %, is not listed. Written by `python -m benchmarks.ladder.physics scenes`."""
+LOST = """## Friction of rolling bearings
+
+What rigid rings, and whole rollers, change of the friction of all sized arrangements: the most over
+three turbines, each bearing as warm as the housing that comes with it leaves it (60 s of one seed).
+Of a slip, itself a share, it is the difference. Less than 1 % is not listed. Written by `python -m
+benchmarks.ladder.physics losses`."""
+TABLES = (
+    ("sizes", SIZES, size_table),
+    ("scenes", SCENES, scene_table),
+    ("losses", LOST, loss_table),
+)
 RUNS = """## Whole runs
 
 Time against error of whole runs, pilot and check at the end included: the main job
@@ -150,11 +163,7 @@ def main() -> None:
         (BEGUN / f"{part}.json").unlink()
     kept = kept_so_far()
     kept["sizes"] = joined(kept)
-    told = [
-        f"{text}\n\n{table(kept[part])}"
-        for part, text, table in (("sizes", SIZES, size_table), ("scenes", SCENES, scene_table))
-        if part in kept
-    ]
+    told = [f"{text}\n\n{table(kept[part])}" for part, text, table in TABLES if part in kept]
     put(PAGE, "<!-- measured -->", "<!-- end of measured -->", "\n\n".join(told))
     if "sizes" in kept:
         draw_sizes(kept["sizes"])

@@ -12,6 +12,7 @@ from typing import Any
 
 from benchmarks.common import ROOT
 from benchmarks.ladder import physics_sizes as parts
+from benchmarks.ladder.physics_losses import machines
 from benchmarks.ladder.physics_sizes import SHORT, STOP, TURBINES, scene_of
 from benchmarks.ladder.whole_runs import whole_runs
 from loadflow.scene.scene import Scene, read_scene
@@ -78,6 +79,7 @@ def seated(turbine: str, speed: float) -> dict[str, Scene]:
 BY_NAME: dict[str, tuple[str, Callable[[], dict[str, Scene]]]] = {
     "scenes": ("scene", ten_scenes),
     "jobs": ("scene", jobs_asked),
+    "losses": ("scene", machines),
     "runs": ("run", whole_runs),
 }
 """Key under which a finding of a part names its scene, and all scenes of that part."""

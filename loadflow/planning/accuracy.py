@@ -91,12 +91,13 @@ def surely_small(scene: Scene, effect: Effect, known: Estimates, *, alone: bool 
 
 def _reaches(scene: Scene, result: str, quantity: str, effect: Effect) -> bool:
     links = giving(result).results[result](scene)[quantity]
-    return any(effect.adds_to(link.model) for link in links)
+    return any(effect.model == link.model for link in links)
 
 
 _FEW = {
     "friction power": "friction power",
     "friction torque": "friction power",
+    "catalogue torque": "friction power",
     "film parameter": "film parameter",
     "smallest load": "equivalent load",
 }
@@ -234,7 +235,7 @@ def _rung_error(scene: Scene, rungs: Rungs, quantity: str) -> float | None:
 def effects_left_out(scene: Scene, model: str) -> Iterator[Effect]:
     """Effects of a model that concern a scene and are off in it."""
     for effect in EFFECTS:
-        if effect.adds_to(model) and effect.concerns(scene) and not effect.is_on(scene):
+        if effect.model == model and effect.concerns(scene) and not effect.is_on(scene):
             yield effect
 
 

@@ -18,6 +18,9 @@ from loadflow.stages.probes import Answers, Probe
 from loadflow.stages.registry import STAGES
 from loadflow.stages.shaft import bearing_loads
 
+ABSOLUTE = ("slip",)
+"""Quantities that are shares themselves: what moves them is told as it is."""
+
 
 @dataclass(frozen=True)
 class Asked:
@@ -87,10 +90,11 @@ def tried(answers: Callable[[Scene], Answers], scene: Scene) -> Answers | str:
 
 
 def changes(with_it: Answers, without: Answers) -> dict[str, float]:
-    """Largest relative change by quantity, over the bearings."""
+    """Largest relative change by quantity, over the bearings; absolute of `ABSOLUTE`."""
     found: dict[str, float] = {}
     for (bearing, quantity), value in with_it.items():
         other = without[bearing, quantity]
-        change = 0.0 if other == value else abs(other - value) / max(abs(value), 1e-300)
+        scale = 1.0 if quantity in ABSOLUTE else max(abs(value), 1e-300)
+        change = 0.0 if other == value else abs(other - value) / scale
         found[quantity] = max(found.get(quantity, 0.0), float(change))
     return found

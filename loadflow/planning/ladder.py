@@ -63,8 +63,12 @@ def _per_sample(known: dict[str, Any]) -> float:
 
 
 def cost_of_effects(scene: Scene, stage: Stage) -> float:
-    """Time of a stage over that without the effects whose cost its rungs do not tell."""
-    factor, models = 1.0, {rungs.name for rungs in stage.models}
+    """Time of a stage over that without the effects whose cost its rungs do not tell.
+
+    Those of a model that is another stage's own cost their time there.
+    """
+    others = {one.models[-1].name for one in STAGES.values() if one.models and one is not stage}
+    factor, models = 1.0, {rungs.name for rungs in stage.models} - others
     for effect in effects_of(stage, scene):
         if effect.model in models and effect.is_on(scene):
             factor *= effect.cost(scene)

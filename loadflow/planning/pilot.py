@@ -68,7 +68,6 @@ class Effort:
 
 EFFORTS = (Effort(2, 100.0), Effort(1, 60.0), Effort(1, 60.0, thorough=False))
 """From the most on. The least is taken where even that is more than its `SHARE`."""
-
 Report = Callable[[str, int, int], None]
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")
@@ -310,8 +309,9 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
     return any(
         part.effect is effect and (part.share or 0.0) > effect.smaller * scene.allowed(result)
         for result in scene.results
-        for name, links in giving(result).results[result](without).items()
-        for part in contributions(without, result, name, links, known)
+        for name, of in giving(result).results[result](without).items()
+        for part in contributions(without, result, name, of, known)
+        if name not in effect.either_way
     )
 
 

@@ -16,9 +16,19 @@ from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.labelling import label, labelled
+from loadflow.stages.rolling import EQUILIBRIUM
 from loadflow.stages.rolling_at_work import at_work, friction_options, rest
 from loadflow.stages.running_time import counted, time_shares, with_running
-from loadflow.stages.stage import Link, Links, Rungs, Stage, always, load_links
+from loadflow.stages.stage import (
+    STEPS_PER_CASE,
+    Link,
+    Links,
+    Measured,
+    Rungs,
+    Stage,
+    always,
+    load_links,
+)
 from loadflow.stages.summary import over_cases
 from loadflow.stages.swinging import swing_speed
 
@@ -165,7 +175,7 @@ def _balls(
         slip = curved + found.losses["spin"]
         assert found.sliding is not None
         assert found.slip_power_density is not None
-        mean = _mean_of_loaded(found.sliding, result.ball_forces)
+        mean = mean_of_loaded(found.sliding, result.ball_forces)
         density = found.slip_power_density.max(axis=(-2, -1))
         kept = dict(
             zip(KEPT, (found.power, found.torque, least, slip, curved, mean, density), strict=True)
@@ -188,7 +198,7 @@ def _unknown(part: FurtherBearing, *_: Any) -> dict[str, Any]:
 _FOLLOW = {"rollers": _rollers, "balls": _balls, None: _unknown}
 
 
-def _mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
+def mean_of_loaded(sliding: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Mean over the loaded contacts of the row that slides most; 0 without load."""
     loaded = forces.reshape(sliding.shape) > 0
     count = np.maximum(loaded.sum(axis=-1), 1)
@@ -204,10 +214,11 @@ def least_film_parameter(parameter: np.ndarray, forces: np.ndarray) -> np.ndarra
 
 def summary(parts: Mapping[Case, xr.Dataset]) -> xr.Dataset:
     """Reduce each case to means and extremes; dimensions ``bearing`` and ``case``."""
-    return over_cases({case: _extremes(part) for case, part in parts.items()})
+    return over_cases({case: extremes(part) for case, part in parts.items()})
 
 
-def _extremes(samples: xr.Dataset) -> xr.Dataset:
+def extremes(samples: xr.Dataset) -> xr.Dataset:
+    """Means and extremes of a case."""
     largest, runs = samples.max("sample"), samples.where(counted(samples))
     mean, least = runs.mean("sample"), runs["film_parameter"].median("sample")
     return labelled(
@@ -260,9 +271,27 @@ def _links(scene: Scene) -> Links:
     wind, rotor, suspension = load_links("bearing load max")
     wind = replace(wind, quantity="bearing load mean")
     return {
-        quantity: (wind, rotor, suspension, Link("friction", quantity))
+        quantity: (
+            wind,
+            rotor,
+            suspension,
+            Link(EQUILIBRIUM.name, quantity),
+            Link("friction", quantity),
+        )
         for quantity in ("friction power", "film parameter", "slip")
     }
+
+
+def _more_seconds(scene: Scene, measured: Measured) -> float | None:
+    """Seconds of elastic rings of a load case beyond those of rigid ones, which friction has."""
+    flexible, rigid = (
+        measured(scene, EQUILIBRIUM.name, rings) for rings in (scene.rolling.rung, "rigid")
+    )
+    if flexible is None or rigid is None:
+        return None
+    steps = STEPS_PER_CASE * min(1.0, scene.loads.step / scene.friction.step)
+    more = flexible["seconds_per_sample"] - rigid["seconds_per_sample"]
+    return float(steps * len(scene.rolling.bearings) * more)
 
 
 STAGE = Stage(
@@ -271,6 +300,7 @@ STAGE = Stage(
     results={"rolling.friction": _links},
     needs=always("loads", "shaft"),
     sections=always("rolling", "friction"),
-    models=(Rungs("friction", section="friction", key=friction_key),),
+    models=(EQUILIBRIUM, Rungs("friction", section="friction", key=friction_key)),
+    more_seconds=_more_seconds,
     summarise=summary,
 )

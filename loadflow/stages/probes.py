@@ -27,6 +27,7 @@ from loadflow.stages.film_of_bearing import (
     surely_touching,
 )
 from loadflow.stages.frames import to_film, to_rolling
+from loadflow.stages.friction import extremes, losses
 from loadflow.stages.loads import hub_loads
 from loadflow.stages.paths_again import FILM, extremes_of_orbit
 from loadflow.stages.reduction import moment_governs
@@ -53,6 +54,10 @@ AT_REST = 8
 STIFF = 0.01
 """Opening of the gap over the clearance below which a shell lends a film no load to carry: about
 what it takes to move ε by a hundredth."""
+
+FOLLOWED = {"step": 0.4, "follow_every": 12}
+"""What the friction of rolling bearings is asked with: loads every so many s, and one roller in so
+many followed."""
 
 CONTACTS = 12
 """Samples of a rolling bearing, from the mildest to the hardest."""
@@ -208,8 +213,11 @@ def _at_rest(journal: Journal, loads: xr.Dataset, shaft: xr.Dataset) -> xr.Datas
 
 
 def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
-    """Largest contact of a few samples of each bearing, and the life under these alone."""
-    found: Answers = {}
+    """Largest contact of a few samples of each bearing, and the life under these alone.
+
+    Their friction, if that is wanted, over the whole series, as rollers slip by what was before.
+    """
+    found = _of_friction(scene, case, inputs) if "rolling.friction" in scene.results else {}
     for bearing in scene.rolling.bearings:
         shaft = inputs["shaft"].sel(bearing=bearing)
         moment = shaft["moment"].transpose("time", "axis").values.astype(float)
@@ -232,6 +240,29 @@ def _of_contacts(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers
             (bearing, "life"): life_of(answer, some),
         }
     return found
+
+
+def _of_friction(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:
+    """Mean losses, film and slip of each rolling bearing."""
+    coarse = {
+        "step": max(FOLLOWED["step"], scene.friction.step),
+        "follow_every": max(FOLLOWED["follow_every"], scene.friction.follow_every),
+    }
+    friction = scene.friction.model_copy(update=coarse)
+    told = extremes(losses(scene.model_copy(update={"friction": friction}), case, dict(inputs)))
+    return {
+        (str(place), quantity): float(told[key].sel(bearing=place))
+        for place in told["bearing"].values
+        for quantity, key in FRICTION.items()
+    }
+
+
+FRICTION = {
+    "friction power": "mean_friction_power",
+    "film parameter": "median_film_parameter",
+    "slip": "mean_slip",
+}
+"""What users read of the friction of rolling bearings, and what its summary calls that."""
 
 
 def _of_collars(scene: Scene, case: Case, inputs: Mapping[str, Any]) -> Answers:

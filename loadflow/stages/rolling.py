@@ -392,20 +392,21 @@ def _work(scene: Scene, cases: tuple[Case, ...], measured: Measured) -> float:
     return kept_share(scene, measured) * steps_of(cases)
 
 
+EQUILIBRIUM = Rungs(
+    "rolling",
+    section="rolling",
+    key=rings_key,
+    error_key=lambda scene: "flexible",  # rigid rings leave out an effect
+)
+"""Load distribution of rolling bearings, which their friction follows, too."""
+
 STAGE = Stage(
     "rolling",
     run=load_distribution,
     results={"rolling.loads": _contact_links, "rolling.life": _life_links},
     needs=lambda scene: ("loads", "reduction") if follows_pitch(scene) else ("reduction",),
     sections=always("rolling", "friction"),
-    models=(
-        Rungs(
-            "rolling",
-            section="rolling",
-            key=rings_key,
-            error_key=lambda scene: "flexible",  # rigid rings leave out an effect
-        ),
-    ),
+    models=(EQUILIBRIUM,),
     summarise=summary,
     work=_work,
 )

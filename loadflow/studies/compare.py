@@ -22,7 +22,7 @@ from loadflow.stages.film_summary import WHIRLS
 from loadflow.stages.turning import runs_throughout
 from loadflow.storage import plain
 from loadflow.studies.compare_factor import Margin
-from loadflow.studies.compare_friction import error_together, rolling_losses
+from loadflow.studies.compare_friction import OWN_TORQUE, error_together, rolling_losses
 from loadflow.studies.compare_margins import (
     damage_per_hour,
     margin_of,
@@ -364,7 +364,8 @@ def _of_rolling(run: Finished, verdicts: Sequence[Verdict]) -> Iterator[tuple[st
         for name, each in losses.torques.items():
             own = each.sel(case=table["case"].values).sum("bearing").values
             torque = lifetime_mean(run, own, share, groups, "N m")
-            error = error_of(run, "rolling.friction", "friction torque")
+            told = "friction torque" if name == OWN_TORQUE else "catalogue torque"
+            error = error_of(run, "rolling.friction", told)
             yield name, replace(torque, error=error)
     *some, last = "slip of rollers", *uncounted_friction(run.scene)
     left_out = f"{', '.join(some)} and {last}" if some else last

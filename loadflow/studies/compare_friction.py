@@ -21,7 +21,8 @@ from loadflow.studies.compare_margins import looked_at, solved
 _SLOW = 0.1  # share of the samples that counts as low speed
 _Means = dict[tuple[str, str], float]  # by load case and bearing
 
-TORQUES = {"": "friction_torque"} | {key: name for key, (name, _) in CATALOGUES.items()}
+OWN_TORQUE = "friction_torque"
+TORQUES = {"": OWN_TORQUE} | {key: name for key, (name, _) in CATALOGUES.items()}
 """Quantity of a comparison by catalogue; the first is our own."""
 
 

@@ -32,7 +32,7 @@ class Effect:
         As the plan calls it.
     model : str
         Name of the model (`loadflow.stages.stage.Rungs`) whose error it adds to when it is out; a
-        result is moved by it if one of its links names this model, or one of `also`.
+        result is moved by it if one of its links names this model.
     keys : tuple of str
         ``"section.key"`` of all settings that a user decides it by: it is open to the plan where
         the scene names none of them. Empty where no scene can have it, or where it follows from
@@ -48,6 +48,9 @@ class Effect:
         moves most, with a margin over what ``python -m benchmarks.ladder.indicators`` finds.
     smaller : float
         The indicator over the effect, at most; the same.
+    either_way : tuple of str
+        Quantities that it raises in one bearing and lowers in another, and so may leave as they
+        are: of these the indicator is a bound from above alone.
     out : str
         What is left out, and why, for the plan.
     needs : str
@@ -66,8 +69,6 @@ class Effect:
     solves : bool
         Whether its indicator solves films, which asks for their compiled loops: a pilot, which
         measures the effect, does without it.
-    also : tuple of str
-        Further models whose errors it adds to; they cost the same with it as without.
     probe : str
         Model whose probe measures it; empty: `model`.
     untold : str
@@ -96,15 +97,11 @@ class Effect:
     solves: bool = False
     larger: Callable[[Scene], float] = lambda scene: UNSURE
     smaller: float = 4.0
+    either_way: tuple[str, ...] = ()
     muted: Callable[[Scene], Callable[[Series], Series] | None] = lambda scene: None
-    also: tuple[str, ...] = ()
     probe: str = ""
     untold: str = ""
     stated: Callable[[Scene], bool] | None = None
-
-    def adds_to(self, model: str) -> bool:
-        """Whether it adds to the error of a model when it is out."""
-        return model == self.model or model in self.also
 
     @property
     def probed(self) -> str:

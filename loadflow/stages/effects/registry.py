@@ -58,5 +58,5 @@ def effect_named(name: str) -> Effect | None:
 
 def effects_of(stage: Stage, scene: Scene) -> list[Effect]:
     """Effects of a stage that can be there in a scene, on or off."""
-    models = [rungs.name for rungs in stage.models]
-    return [one for one in EFFECTS if any(map(one.adds_to, models)) and one.concerns(scene)]
+    models = {rungs.name for rungs in stage.models}
+    return [one for one in EFFECTS if one.model in models and one.concerns(scene)]

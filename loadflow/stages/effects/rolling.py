@@ -13,6 +13,7 @@ from loadflow.rolling.rating.static import static_overload
 from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNSURE, Effect, Sizes
+from loadflow.stages.effects.roller_rows import relief
 from loadflow.stages.effects.situation import Situation
 from loadflow.stages.rolling_at_work import overloaded_words
 from loadflow.stages.stage import with_settings
@@ -21,8 +22,17 @@ STEEL_DENSITY = 7850.0  # kg/m³
 SECTION_SIDE = 2.4
 """Width of a ring's section over the diameter of its elements, where none is stated."""
 
-ROLLER_SIZES = {"maximum force": 0.21, "maximum pressure": 0.05, "life": 0.28}
-"""What free rings change of the tapered bearing of `pipelines/dlc_1_1.toml` (docs/rings.md)."""
+ROLLER_SIZES = {"maximum force": 0.21, "maximum pressure": 0.065, "life": 0.28}
+"""What free rings change of the tapered bearing of `pipelines/dlc_1_1.toml` (docs/rings.md); of the
+pressure more, as sized pairs that walls hold lose up to 0.077 (docs/physics.md)."""
+
+LOSSES = {"friction power": 0.2, "film parameter": 0.1, "slip": 0.2}
+"""What free rings change of friction: the most of preloaded pairs under load, and of others, in 57
+machines and wind speeds (docs/physics.md). Of a slip, which is a share, as it is."""
+
+PRELOADED = {"friction power": 0.7, "film parameter": 0.2, "slip": 0.6}
+"""What they change besides of a pair of rows that preload alone presses: rigid rings keep all of
+its rollers rolling, elastic ones give way, and one row is left to slip."""
 
 PRESSED = 3e-4
 """Approach of a roller over its diameter that its stiffness is taken at, of about 1 GPa."""
@@ -81,20 +91,37 @@ def _of_balls(parts: list[FurtherBearing]) -> Sizes:
     share = max((_ring_compliance(part) for part in parts), default=0.0)
     share /= _ring_compliance(Rolling())
     factor = 2.0 * share / (1.0 + share)
-    return {name: factor * known[name]["max"] for name in ROLLER_SIZES}
+    return {name: factor * known[name]["max"] for name in (*ROLLER_SIZES, *LOSSES)}
 
 
 def _rings(at: Situation) -> Sizes:
     """Rings against contacts: of rollers from the bearing of the main job, of others the ladder's.
 
-    Rollers: `ROLLER_SIZES` times the share of the approach that the rings take.
+    Rollers: `ROLLER_SIZES` and `LOSSES` times the share of the approach that the rings take; of a
+    pair of rows also `PRELOADED`, as far as its mean load is short of what lifts rollers off.
     """
-    parts = at.scene.rolling.bearings.values()
-    rollers = [part for part in parts if part.geometry.friction_model == "rollers"]
-    others = [part for part in parts if part not in rollers]
-    share = max(map(_roller_share, rollers), default=0.0)
-    balls = _of_balls(others)
-    return {name: max(balls[name], share * size) for name, size in ROLLER_SIZES.items()}
+    parts = at.scene.rolling.bearings
+    rollers = {
+        name: part for name, part in parts.items() if part.geometry.friction_model == "rollers"
+    }
+    found = [_of_balls([part for name, part in parts.items() if name not in rollers])]
+    for name, part in rollers.items():
+        lost = {what: size + _held(at, name) * PRELOADED[what] for what, size in LOSSES.items()}
+        share = _roller_share(part)
+        found.append({what: share * size for what, size in (ROLLER_SIZES | lost).items()})
+    return {what: max(one[what] for one in found) for what in found[0]}
+
+
+def _held(at: Situation, name: str) -> float:
+    """How far the mean load of a pair of tapered rows is short of what lifts rollers off, most.
+
+    1 of preload alone; 0 where some rollers lift, or without a preload.
+    """
+    bearing: Any = at.scene.rolling.bearings[name].geometry
+    if not bearing.rib_guided or not at.turns.any():
+        return 0.0
+    loaded = relief(bearing, at.bearings[name])[at.turns]
+    return float(np.maximum(1.0 - loaded, 0.0).max())
 
 
 def _rings_at_most(scene: Scene) -> float:
@@ -153,7 +180,8 @@ RINGS = Effect(
     switched=_with_flexible_rings,
     indicator=_rings,
     larger=_rings_at_most,
-    smaller=15.0,  # 9.6 of the life where walls hold them
+    smaller=25.0,  # 18 of the pressure of sized pairs
+    either_way=("life", *LOSSES),
     out='rolling.rings = "rigid"',
     needs=(
         "rolling.inner_ring and rolling.outer_ring, which bearings sized for the turbine bring "
@@ -191,7 +219,12 @@ def _centrifugal(at: Situation) -> Sizes:
         mean = np.hypot(load.radial, abs(load.force[:, 0])) + 2 * load.turn / bearing.pitch_diameter
         share = force * bearing.balls / np.maximum(mean, 1.0)
         found = max(found, float(np.max(share)))
-    return {"maximum force": found, "maximum pressure": found / 3, "life": 3 * found}
+    return {
+        "maximum force": found,
+        "maximum pressure": found / 3,
+        "life": 3 * found,
+        "friction power": found,
+    }
 
 
 INERTIA_COSTS = 1000.0

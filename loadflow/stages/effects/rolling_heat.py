@@ -166,7 +166,6 @@ ROLLING_HEAT = Effect(
         and bool(_unknown(scene))
         and "temperature" not in scene.friction.changed
     ),
-    also=("friction",),
     probe="friction",
     untold="its friction leaves at no temperature up to "
     f"{HOTTEST:g} K above the air by the cooling stated or assumed",
