@@ -14,13 +14,13 @@ import numpy as np
 
 from loadflow.journal import JournalBearing
 from loadflow.rolling import FrictionOptions, friction
+from loadflow.rolling.kinematics import common_period
 from loadflow.rolling.motion.cage import CageRim, cage_orbit
 from loadflow.rolling.motion.crank import CrankDrive
 from loadflow.rolling.motion.history import RollerHistory, RollerRow, crank_history
-from loadflow.rolling.motion.kinematics import common_period
 from loadflow.rolling.motion.radial_load import behw_law, radial_distribution
 from loadflow.rolling.motion.rollers import coulomb_motion, film_motion
-from loadflow.studies.crank_rig import CrankRig
+from loadflow.studies.one_bearing.crank_rig import CrankRig
 from loadflow.tribology import lubricant
 
 DRIVE = CrankDrive(

@@ -20,7 +20,7 @@ from loadflow.rolling.friction.roller_drag import (
     segment_area_moment,
     segment_polar,
 )
-from loadflow.rolling.motion.kinematics import Value, contact_speeds
+from loadflow.rolling.kinematics import Value, contact_speeds
 
 Array = NDArray[np.float64]
 
@@ -35,7 +35,7 @@ class RollerState:
         rad/s.
     spin, spin_rate : float or ndarray
         Of the roller against the cage, rad/s and rad/s²; signs as in
-        `loadflow.rolling.motion.kinematics`.
+        `loadflow.rolling.kinematics`.
     traction : tuple
         Friction on the roller at inner and outer ring in the sense of the spin, N.
     rolling : tuple
@@ -166,7 +166,7 @@ def energy_audit(
         segment_area_moment,
         segment_polar,
     )
-    from loadflow.rolling.motion.kinematics import ideal_speeds
+    from loadflow.rolling.kinematics import ideal_speeds
         >>> d, big = 49.5e-3, 71.5e-3
         >>> cage, spin = ideal_speeds(100.0, 0.0, d, big)
         >>> state = RollerState(inner_speed=100.0, outer_speed=0.0, cage_speed=cage, spin=spin,

@@ -17,7 +17,7 @@ from loadflow.stages.film_past import past_of_speed
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.studies.bearing_series import iter_bearings, with_bearings
-from loadflow.studies.reduction_error import for_long_series, solve_films
+from loadflow.studies.design_loads.error import for_long_series, solve_films
 
 
 @pytest.fixture(scope="module")
@@ -129,7 +129,7 @@ def test_the_film_is_asked_once_for_each_wind_speed(loadflow, hub_cube, tmp_path
         asked.append(speed)
         return lambda mean, amplitude, frequency: 0.6 + 0.3 / (1 + (frequency / 0.3) ** 2)
 
-    monkeypatch.setattr("loadflow.studies.design_loads.film_response", film)
+    monkeypatch.setattr("loadflow.studies.design_loads.tables.film_response", film)
     code, out, _ = loadflow(
         *("reduce", hub_cube, "-o", tmp_path, "--method", "periodic", "--bearing", "N")
     )
@@ -323,8 +323,8 @@ def test_bad_input_gives_one_message_and_code_2(loadflow, hub_cube, tmp_path, ar
 
 def test_chunked_and_loaded_cubes_give_the_same_numbers(hub_cube):
     pytest.importorskip("dask")
-    from loadflow.studies.lifetime import lifetimes
-    from loadflow.studies.seeds import seed_verdicts
+    from loadflow.studies.lifetime.lifetimes import lifetimes
+    from loadflow.studies.seeds.equality import seed_verdicts
     from loadflow.studies.statistics import statistic_records
 
     forms = [open_cube(hub_cube, chunks={"time": 150}), open_cube(hub_cube).load()]

@@ -233,7 +233,7 @@ def undrawn(monkeypatch):
 def coarse(monkeypatch):
     """Films of the rig, which has no option for their cells, on few of them."""
     monkeypatch.setattr(
-        "loadflow.studies.crank_rig.Film",
+        "loadflow.studies.one_bearing.crank_rig.Film",
         lambda *told, grid, **more: Film(*told, grid=(24, 8), **more),
     )
 

@@ -7,8 +7,8 @@ import pytest
 
 from loadflow.cli import main
 from loadflow.errors import InputError
-from loadflow.studies.crank_rig import CrankRig
-from loadflow.studies.rig_point import measured_torques, rig_torques
+from loadflow.studies.one_bearing.crank_rig import CrankRig
+from loadflow.studies.one_bearing.rig import measured_torques, rig_torques
 
 DRIVE = CrankRig().drive
 RPM = 954.93  # 100 rad/s

@@ -15,8 +15,8 @@ from loadflow.stages.loads import hub_loads
 from loadflow.stages.registry import STAGES
 from loadflow.stages.rolling_at_work import friction_options
 from loadflow.stages.shaft import bearing_loads
-from loadflow.studies.run_energy import run_energy
-from loadflow.studies.run_lifetime import run_lifetime
+from loadflow.studies.lifetime.energy import run_energy
+from loadflow.studies.lifetime.of_run import run_lifetime
 from loadflow.tribology import lubricant
 
 

@@ -52,7 +52,7 @@ def test_a_change_of_what_a_kernel_is_compiled_from_makes_kept_ones_outdated(ker
 
 def test_another_order_of_fields_that_a_kernel_is_given_makes_kept_ones_outdated(edit):
     """Of the same types: numba would take the old kernel, and one field for the other."""
-    kernel = ROOT / "journal/models/_thickening_kernels.py"  # which does not import the tuple
+    kernel = ROOT / "journal/models/composed/kernels/_thickening_kernels.py"
 
     def swapped(text):
         assert "    cos: Array\n    sin: Array\n" in text

@@ -14,9 +14,9 @@ from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages import wear
 from loadflow.studies.bearing_series import BearingSeries
-from loadflow.studies.lifetime import LifetimeOptions, lifetimes
-from loadflow.studies.lifetime_page import exceedances, share_warnings
-from loadflow.studies.run_lifetime import case_shares, energy_per_year, run_lifetime
+from loadflow.studies.lifetime.lifetimes import LifetimeOptions, lifetimes
+from loadflow.studies.lifetime.of_run import case_shares, energy_per_year, run_lifetime
+from loadflow.studies.lifetime.page import exceedances, share_warnings
 from loadflow.wind import Machine, conditions
 
 NREL_5MW = Machine(cut_in=3.0, rated=11.4, cut_out=25.0, rotor_diameter=126.0, hub_height=90.0)

@@ -9,7 +9,7 @@ import xarray as xr
 from loadflow.planning.plan import make_plan
 from loadflow.planning.seeds_wanted import enough_seeds, of_run, seeds_wanted, sentences
 from loadflow.scene.scene import make_scene
-from loadflow.studies.seed_scatter import scatter_of_one_seed
+from loadflow.studies.seeds.scatter import scatter_of_one_seed
 
 SEEDS, SPEEDS = 400, (8.0, 12.0)
 SCENE = make_scene(

@@ -7,10 +7,10 @@ from synthetic import case
 
 from loadflow.cube.schema import VARIABLES
 from loadflow.journal import JournalBearing, Lubricant
-from loadflow.journal.pad_results import ThrustResult
+from loadflow.journal.thrust.pad_results import ThrustResult
 from loadflow.quantities import FILM, ROLLING, percent
 from loadflow.stages import film_summary, friction, rolling
-from loadflow.studies.design_point import NUMBERS
+from loadflow.studies.design.point import NUMBERS
 
 pint = pytest.importorskip("pint", reason="pint is not installed (extra test)")
 READS = pint.UnitRegistry()

@@ -16,11 +16,11 @@ from loadflow.errors import InputError
 from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.studies.compare_tilt import carries_thrust
-from loadflow.studies.rolling_verdicts import RollingLimits, _static
-from loadflow.studies.run_lifetime import run_lifetime
-from loadflow.studies.uncarried import located, uncarried
-from loadflow.studies.verdicts import verdicts
+from loadflow.studies.candidate.tilt import carries_thrust
+from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.verdicts.rolling import RollingLimits, _static
+from loadflow.studies.verdicts.uncarried import located, uncarried
+from loadflow.studies.verdicts.verdicts import verdicts
 from loadflow.verdict import Verdict, from_dataset, to_dataset
 
 FILM = {"grid": [24, 8]}

@@ -30,13 +30,13 @@ from loadflow.stages import (
     thrust,
     wear,
 )
-from loadflow.studies.crowning import crowns_of
-from loadflow.studies.design_point import NUMBERS, DesignPoint
-from loadflow.studies.design_space import space_of
-from loadflow.studies.deviations import Built, tolerances_of
-from loadflow.studies.load_spectrum import load_spectrum
-from loadflow.studies.run_lifetime import run_lifetime
-from loadflow.studies.verdicts import verdicts
+from loadflow.studies.candidate.deviations import Built, tolerances_of
+from loadflow.studies.design.crowning import crowns_of
+from loadflow.studies.design.point import NUMBERS, DesignPoint
+from loadflow.studies.design.space import space_of
+from loadflow.studies.lifetime.load_spectrum import load_spectrum
+from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.verdicts.verdicts import verdicts
 
 
 def fingerprints(scene, section):

@@ -42,10 +42,10 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial, Thrust
 from loadflow.stages import friction, thrust
 from loadflow.stages.frames import to_rolling
-from loadflow.studies.compare_friction import OWN_TORQUE, Losses, rolling_losses
-from loadflow.studies.compare_margins import load_by_row, lubrication, row_shares, solved
-from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.compare_risks import LIGHT, mostly_exceeded, rolling_risks
+from loadflow.studies.candidate.friction import OWN_TORQUE, Losses, rolling_losses
+from loadflow.studies.candidate.margins import load_by_row, lubrication, row_shares, solved
+from loadflow.studies.candidate.numbers import Finished
+from loadflow.studies.candidate.risks import LIGHT, mostly_exceeded, rolling_risks
 
 CANDIDATES = {
     "rollers": ("two-spherical", "cylindrical-tapered", "tapered-pair", "double-row-tapered"),

@@ -20,8 +20,8 @@ from benchmarks.ladder.measuring import (
     sentence,
     with_ratios,
 )
-from loadflow.journal.collar_series import CollarSeries
-from loadflow.journal.thrust_curves import CollarCurves
+from loadflow.journal.thrust.collar_series import CollarSeries
+from loadflow.journal.thrust.curves import CollarCurves
 from loadflow.running.candidates import candidates_for
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import ConePair, ThrustCollar

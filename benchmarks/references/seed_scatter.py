@@ -12,9 +12,9 @@ from pathlib import Path
 from benchmarks.common import ROOT, arguments
 from loadflow.running.folder import results_of
 from loadflow.scene import read_scene
-from loadflow.studies.run_lifetime import known_shares
-from loadflow.studies.seed_intervals import Groups
-from loadflow.studies.seed_scatter import scatter_of_one_seed, table_of_cases
+from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.seeds.intervals import Groups
+from loadflow.studies.seeds.scatter import scatter_of_one_seed, table_of_cases
 
 FILE = ROOT / "loadflow" / "data" / "seed_scatter.json"
 

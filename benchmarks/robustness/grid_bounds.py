@@ -31,7 +31,9 @@ from benchmarks.robustness.families import FAMILIES, SEEDS, draw_point
 from benchmarks.robustness.invariances import Asked, asked, on_reduced
 from loadflow.errors import LoadflowError
 from loadflow.journal.grid_bounds import BOUNDED, UNRESOLVED
-from loadflow.journal.models import composed_model, composed_supply, reduced
+from loadflow.journal.models import reduced
+from loadflow.journal.models.composed import model as composed_model
+from loadflow.journal.models.composed import supply as composed_supply
 
 QUANTITIES = BOUNDED[1:]
 _RICHARDSON = 4.0 / 3.0

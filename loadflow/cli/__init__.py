@@ -23,7 +23,7 @@ from loadflow.cli import (  # noqa: F401  they register their commands
 from loadflow.cli.base import app, err, warnings_in_a_line
 from loadflow.cli.signals import Stopped, leave, stoppable, tell_stopped
 from loadflow.errors import InputError, LoadflowError
-from loadflow.studies.journal_film import EXAMPLE as OF_A_JOURNAL_BEARING
+from loadflow.studies.one_bearing.journal_film import EXAMPLE as OF_A_JOURNAL_BEARING
 
 GROUPS = {
     "Scenes and runs": (

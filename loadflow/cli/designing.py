@@ -121,7 +121,7 @@ def _tell_candidate(asked: Scene) -> None:
 def _crown(asked: Scene, means: dict[str, Any], as_json: bool) -> None:
     """Search the crowns, and print them."""
     from loadflow.running.crowning import crown as carry_out
-    from loadflow.studies.crowning import HEADS
+    from loadflow.studies.design.crowning import HEADS
 
     with progress(quiet=as_json) as show:
         found = carry_out(asked, progress=show, **means)

@@ -60,7 +60,7 @@ def statistics(
     Beside each extreme stand the loads at the same moment, as IEC 61400-1 wants them.
     """
     from loadflow.studies.bearing_series import bearing_cube
-    from loadflow.studies.extreme_loads import contemporaneous_extremes
+    from loadflow.studies.lifetime.extreme_loads import contemporaneous_extremes
     from loadflow.studies.statistics import (
         EXTREME_HEADS,
         HEADS,
@@ -125,8 +125,8 @@ def lifetime(
 ) -> None:
     """Sum up a lifetime of each bearing: fatigue, revolutions by speed and force, extreme load."""
     from loadflow.studies.bearing_series import iter_bearings
-    from loadflow.studies.lifetime import LifetimeOptions, lifetimes
-    from loadflow.studies.lifetime_page import (
+    from loadflow.studies.lifetime.lifetimes import LifetimeOptions, lifetimes
+    from loadflow.studies.lifetime.page import (
         HEADS,
         as_dict,
         share_warnings,

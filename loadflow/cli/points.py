@@ -25,7 +25,7 @@ def wind_conditions(
     as_json: AsJson = False,
 ) -> None:
     """Show the wind conditions of IEC 61400-1 at a wind speed."""
-    from loadflow.studies.journal_point import iec_conditions
+    from loadflow.studies.one_bearing.journal import iec_conditions
 
     print_quantities(
         iec_conditions(
@@ -145,8 +145,12 @@ def journal(
     as_json: AsJson = False,
 ) -> None:
     """Solve the film of a journal bearing for one load, or for a reduced series."""
-    from loadflow.studies.journal_film import journal_film
-    from loadflow.studies.journal_point import journal_coefficients, journal_point, journal_series
+    from loadflow.studies.one_bearing.journal import (
+        journal_coefficients,
+        journal_point,
+        journal_series,
+    )
+    from loadflow.studies.one_bearing.journal_film import journal_film
 
     if oil is None:
         refuse("the oil has one viscosity; give --oil", "inlet_temperature_c", "transfer")
@@ -313,7 +317,7 @@ def rolling(
 ) -> None:
     """Share a load between the balls of a four-point slewing bearing, or a bearing of a scene."""
     from loadflow.rolling import Lubrication
-    from loadflow.studies.rolling_point import (
+    from loadflow.studies.one_bearing.rolling import (
         bearing_of_scene,
         rolling_coefficients,
         rolling_point,

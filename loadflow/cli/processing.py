@@ -94,8 +94,14 @@ def seeds(
     Then group the seeds of each wind speed: those of one group may be merged.
     """
     from loadflow.studies.bearing_series import bearing_cube
-    from loadflow.studies.seeds import HEADS, as_row, count_different, groupings, seed_verdicts
-    from loadflow.studies.seeds_page import write_seed_page
+    from loadflow.studies.seeds.equality import (
+        HEADS,
+        as_row,
+        count_different,
+        groupings,
+        seed_verdicts,
+    )
+    from loadflow.studies.seeds.page import write_seed_page
 
     if not output:
         refuse("only the page tells it; give -o", "margin", "uncertainty")
@@ -230,7 +236,7 @@ def _histogram(
     options: dict[str, Any],
     as_json: bool,
 ) -> None:
-    from loadflow.studies.reduced_series import (
+    from loadflow.studies.design_loads.series import (
         FILM_HEADS,
         HEADS,
         as_row,
@@ -267,8 +273,8 @@ def _stationary(
     cube: Cube, folder: Path, where: dict[str, Any], journal: Journal | None, as_json: bool
 ) -> None:
     from loadflow.studies.bearing_series import iter_bearings
-    from loadflow.studies.design_films import HEADS, as_row, stationary_films
-    from loadflow.studies.design_loads import (
+    from loadflow.studies.design_loads.films import HEADS, as_row, stationary_films
+    from loadflow.studies.design_loads.tables import (
         STATIONARY_HEADS,
         stationary_row,
         stationary_rows,
@@ -299,8 +305,8 @@ def _periodic(
     as_json: bool,
 ) -> None:
     from loadflow.studies.bearing_series import iter_bearings
-    from loadflow.studies.design_films import HEADS, as_row, periodic_film
-    from loadflow.studies.design_loads import PERIODIC_HEADS, periodic_parts, write_periodic
+    from loadflow.studies.design_loads.films import HEADS, as_row, periodic_film
+    from loadflow.studies.design_loads.tables import PERIODIC_HEADS, periodic_parts, write_periodic
     from loadflow.turbines import load_turbine
 
     if scene is not None and options["bounds"] and not film:

@@ -58,8 +58,8 @@ def friction_rig(
 ) -> None:
     """Friction torque of a crank rig over speed, part by part, beside what was measured."""
     from loadflow.journal import JournalBearing
-    from loadflow.studies.crank_rig import CrankRig
-    from loadflow.studies.rig_point import rig_torques
+    from loadflow.studies.one_bearing.crank_rig import CrankRig
+    from loadflow.studies.one_bearing.rig import rig_torques
 
     told: dict[str, Any] = {
         "temperature": temperature_c + CELSIUS,

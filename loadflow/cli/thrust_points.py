@@ -58,7 +58,7 @@ def thrust(
     as_json: AsJson = False,
 ) -> None:
     """Solve the films of a thrust collar between two rows of pads for one force."""
-    from loadflow.studies.thrust_point import thrust_point
+    from loadflow.studies.one_bearing.thrust import thrust_point
 
     geometry = {
         "pads": pads,
@@ -116,7 +116,7 @@ def cone(
     as_json: AsJson = False,
 ) -> None:
     """Solve the films of two cones against each other for one force and moment."""
-    from loadflow.studies.thrust_point import thrust_point
+    from loadflow.studies.one_bearing.thrust import thrust_point
 
     one: dict[str, Any] = {
         "half_angle": None if half_angle_deg is None else math.radians(half_angle_deg),
@@ -158,7 +158,7 @@ def _bearing(
     told: Mapping[str, Any],
 ) -> AnyAxial:
     """The bearing of a scene, or of the measures that a command states; None is not stated."""
-    from loadflow.studies.thrust_point import bearing_of_keys, bearing_of_scene
+    from loadflow.studies.one_bearing.thrust import bearing_of_keys, bearing_of_scene
 
     given = {name: value for name, value in geometry.items() if value is not None}
     if scene is not None:

@@ -19,9 +19,9 @@ from loadflow.data import seed_scatter
 from loadflow.planning.plan import Plan
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
-from loadflow.studies.run_lifetime import known_shares
-from loadflow.studies.seed_intervals import Groups
-from loadflow.studies.seed_scatter import ANSWERS, scatter_of_one_seed, table_of_cases
+from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.seeds.intervals import Groups
+from loadflow.studies.seeds.scatter import ANSWERS, scatter_of_one_seed, table_of_cases
 from loadflow.wind.cases import row_of
 
 WANTED = 0.05
@@ -38,7 +38,7 @@ class SeedsWanted:
     Attributes
     ----------
     answer : str
-        One of `loadflow.studies.seed_scatter.ANSWERS`.
+        One of `loadflow.studies.seeds.scatter.ANSWERS`.
     interval : float
         Half width of its 95 % interval with the seeds of the scene, over the answer.
     by_models : float or None

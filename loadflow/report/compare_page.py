@@ -55,7 +55,7 @@ def write_comparison(
     path : Path
         HTML file to write.
     data : mapping
-        `loadflow.studies.compare_result.Comparison.as_dict`.
+        `loadflow.studies.candidate.result.Comparison.as_dict`.
     pictures : mapping of str to sequence of Chart, optional
         By candidate, the moments that its numbers are from; its name and a full stop stand before
         their anchors.
@@ -112,7 +112,7 @@ def moments_of(one: Mapping[str, Any], data: Mapping[str, Any]) -> dict[Moment, 
     Parameters
     ----------
     one : mapping
-        `loadflow.studies.compare_result.Judged.as_dict`.
+        `loadflow.studies.candidate.result.Judged.as_dict`.
     data : mapping
         That of the comparison.
     """

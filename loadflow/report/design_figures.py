@@ -24,7 +24,7 @@ def front_figure(data: Mapping[str, Any]) -> Figure:
     Parameters
     ----------
     data : mapping
-        `loadflow.studies.design_result.Designs.as_dict`.
+        `loadflow.studies.design.result.Designs.as_dict`.
     """
     drawing, axis = figure(height=3.6)
     rows = [(one["numbers"], one["why"]) for one in data["designs"]]

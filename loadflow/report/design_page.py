@@ -40,7 +40,7 @@ def write_design(path: Path, data: Mapping[str, Any]) -> Path:
     path : Path
         HTML file to write.
     data : mapping
-        `loadflow.studies.design_result.Designs.as_dict`.
+        `loadflow.studies.design.result.Designs.as_dict`.
     """
     checks = data["checks"]
     best = next((name for name in reversed(checks) if name != "start"), None)

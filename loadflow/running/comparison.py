@@ -31,12 +31,12 @@ from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.design import Design
 from loadflow.scene.scene import Candidate, Scene, read_scene
 from loadflow.storage import write_json, write_text
-from loadflow.studies.compare import compared, judged
-from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.compare_result import Comparison, Judged
-from loadflow.studies.compare_words import bearings
-from loadflow.studies.load_spectrum import load_spectrum
-from loadflow.studies.tolerance_bands import CLASSES, with_bands
+from loadflow.studies.candidate.numbers import Finished
+from loadflow.studies.candidate.result import Comparison, Judged
+from loadflow.studies.compare.bands import CLASSES, with_bands
+from loadflow.studies.compare.comparison import compared, judged
+from loadflow.studies.compare.words import bearings
+from loadflow.studies.lifetime.load_spectrum import load_spectrum
 
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")

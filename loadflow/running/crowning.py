@@ -16,9 +16,9 @@ from loadflow.running.lock import locked
 from loadflow.scene.design import Crowning
 from loadflow.scene.scene import Candidate, Scene
 from loadflow.storage import write_json, write_text
-from loadflow.studies.crowning import PlaceCrown, crowns_of
-from loadflow.studies.design_result import scene_with_bearings
-from loadflow.studies.design_space import with_collars, written_collars, written_places
+from loadflow.studies.design.crowning import PlaceCrown, crowns_of
+from loadflow.studies.design.result import scene_with_bearings
+from loadflow.studies.design.space import with_collars, written_collars, written_places
 
 
 @dataclass(frozen=True)

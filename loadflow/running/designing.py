@@ -38,13 +38,13 @@ from loadflow.scene.scene import Candidate, Scene
 from loadflow.stages.effects.clearances import CLEARANCES
 from loadflow.stages.effects.situation import situation
 from loadflow.storage import write_json, write_text
-from loadflow.studies.compare import judged
-from loadflow.studies.compare_result import Judged
-from loadflow.studies.design_point import (
+from loadflow.studies.candidate.result import Judged
+from loadflow.studies.compare.comparison import judged
+from loadflow.studies.design.point import (
     DesignPoint,
     judge_design,
 )
-from loadflow.studies.design_result import (
+from loadflow.studies.design.result import (
     Designs,
     Front,
     Map,
@@ -54,8 +54,8 @@ from loadflow.studies.design_result import (
     most_room,
     scene_of_best,
 )
-from loadflow.studies.design_space import Space, space_of, start_of, written_collars
-from loadflow.studies.load_spectrum import VARIABLES, load_spectrum
+from loadflow.studies.design.space import Space, space_of, start_of, written_collars
+from loadflow.studies.lifetime.load_spectrum import VARIABLES, load_spectrum
 from loadflow.studies.shaft_through import BentShaft, fitting_shaft
 
 _COUNTS = float(Scene.model_fields["accuracy"].default)

@@ -11,8 +11,8 @@ from typing import Any
 
 from loadflow.running.code_stamp import code_stamp
 from loadflow.storage import number_of, plain, write_json
-from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.compare_result import Judged, Number
+from loadflow.studies.candidate.numbers import Finished
+from loadflow.studies.candidate.result import Judged, Number
 from loadflow.verdict import Verdict
 
 FILE = "numbers.json"

@@ -16,8 +16,9 @@ from loadflow.report.run_charts import duration_chart, exceedance_chart
 from loadflow.running.folder import ForceOf, answered
 from loadflow.scene.scene import Scene
 from loadflow.studies.bearing_series import BearingSeries
-from loadflow.studies.lifetime import BearingLifetime, LifetimeOptions, lifetimes
-from loadflow.studies.lifetime_page import (
+from loadflow.studies.lifetime.lifetimes import BearingLifetime, LifetimeOptions, lifetimes
+from loadflow.studies.lifetime.of_run import case_shares
+from loadflow.studies.lifetime.page import (
     case_table,
     duration_of,
     exceedances,
@@ -25,7 +26,6 @@ from loadflow.studies.lifetime_page import (
     summary_table,
     tail_tables,
 )
-from loadflow.studies.run_lifetime import case_shares
 
 CLASSES = 32
 """Of speed, of force, and of the Markov matrix."""

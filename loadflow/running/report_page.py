@@ -48,8 +48,8 @@ from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import Scene, read_scene
 from loadflow.scene.unused import friction_note, scaling_note, unused_keys
 from loadflow.stages.bores import told_bores
-from loadflow.studies.compare_words import drawn
-from loadflow.studies.lifetime_page import write_lifetime_tables
+from loadflow.studies.compare.words import drawn
+from loadflow.studies.lifetime.page import write_lifetime_tables
 
 TABLES = "tables"
 """Folder of a run that holds the tables of its report as CSV."""

@@ -118,9 +118,9 @@ def _judged(
     scene: Scene, groups: Mapping[str, Any], missing: Mapping[str, list[str]]
 ) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
-    from loadflow.studies.run_energy import run_energy
-    from loadflow.studies.run_lifetime import run_lifetime
-    from loadflow.studies.verdicts import verdicts
+    from loadflow.studies.lifetime.energy import run_energy
+    from loadflow.studies.lifetime.of_run import run_lifetime
+    from loadflow.studies.verdicts.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)
     found = verdicts(scene, groups, lifetime, missing)

@@ -21,10 +21,10 @@ from loadflow.running.comparison import Means
 from loadflow.running.executor import Executor, Lost
 from loadflow.running.parts import digest_of, is_sound, save_part
 from loadflow.scene.design import Design
-from loadflow.studies.design_columns import from_columns, to_columns
-from loadflow.studies.design_point import NUMBERS, DesignPoint, judge_design
-from loadflow.studies.design_result import Map, best_of
-from loadflow.studies.design_space import Space
+from loadflow.studies.design.columns import from_columns, to_columns
+from loadflow.studies.design.point import NUMBERS, DesignPoint, judge_design
+from loadflow.studies.design.result import Map, best_of
+from loadflow.studies.design.space import Space
 from loadflow.studies.shaft_through import BentShaft
 
 BATCH = 8

@@ -28,7 +28,7 @@ from loadflow.journal import (
     PairResult,
     ThrustBearing,
 )
-from loadflow.journal.thrust_curves import CollarFilms
+from loadflow.journal.thrust.curves import CollarFilms
 from loadflow.scene.films import Law
 from loadflow.scene.limits import FilmLimits
 from loadflow.scene.section import Section

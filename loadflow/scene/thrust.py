@@ -10,8 +10,8 @@ from pydantic import BaseModel, model_validator
 
 from loadflow.errors import InputError, SolverError
 from loadflow.journal import DoubleThrustBearing, DoubleThrustResult, Film, Lubricant, PadHeat
-from loadflow.journal.collar_series import CollarSeries
-from loadflow.journal.thrust_curves import CollarCurves, CollarFilms, gives_way
+from loadflow.journal.thrust.collar_series import CollarSeries
+from loadflow.journal.thrust.curves import CollarCurves, CollarFilms, gives_way
 from loadflow.scene.axial import Array, AxialBearing, Cells, ConePair, Lands, Positive
 from loadflow.scene.seats import SeatTable, check_seat
 from loadflow.scene.section import Section, told_apart

@@ -7,7 +7,7 @@ from typing import Annotated, Self
 from pydantic import BaseModel, Field
 
 from loadflow.errors import InputError
-from loadflow.journal.wear import Wear as WearModel
+from loadflow.journal.wear.lifetime import Wear as WearModel
 from loadflow.scene.journal import Journal
 from loadflow.scene.section import Section
 from loadflow.scene.shaft import Shaft

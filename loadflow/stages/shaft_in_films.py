@@ -19,8 +19,8 @@ from loadflow.errors import SolverError
 from loadflow.journal import Control, Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.heat import Heat
-from loadflow.journal.models.shared_path import SharedPath, follow_shared
-from loadflow.journal.models.shared_sides import Lying, Seats
+from loadflow.journal.models.composed.shared_path import SharedPath, follow_shared
+from loadflow.journal.models.composed.shared_sides import Lying, Seats
 from loadflow.numerics.convergence import Convergence
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene

@@ -9,8 +9,8 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal.collar_series import CollarPath
-from loadflow.journal.thrust_curves import CollarFilms
+from loadflow.journal.thrust.collar_series import CollarPath
+from loadflow.journal.thrust.curves import CollarFilms
 from loadflow.quantities import table
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene

@@ -12,9 +12,9 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
-from loadflow.journal.wear import TOUCHING, wear_bearing
-from loadflow.journal.wear_cycle import Cycle
-from loadflow.journal.worn_bearing import WornBearing
+from loadflow.journal.wear.cycle import Cycle
+from loadflow.journal.wear.lifetime import TOUCHING, wear_bearing
+from loadflow.journal.wear.worn_bearing import WornBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime_shares import seconds_per_year, shares_in

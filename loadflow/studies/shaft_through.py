@@ -142,7 +142,7 @@ class BentShaft:
         place : str
             One of them.
         samples : xarray.Dataset
-            Of `loadflow.studies.load_spectrum.load_spectrum`, of that place.
+            Of `loadflow.studies.lifetime.load_spectrum.load_spectrum`, of that place.
         """
         fits = self.fitting(candidate)
         if fits is not self.concept or self._floats:

@@ -17,8 +17,8 @@ import numpy as np
 from loadflow.rolling import RollerBearing
 from loadflow.rolling import friction as parts
 from loadflow.rolling.friction import roller_drag as drag
+from loadflow.rolling.kinematics import common_period, contact_speeds, ideal_speeds
 from loadflow.rolling.motion.crank import CrankDrive
-from loadflow.rolling.motion.kinematics import common_period, contact_speeds, ideal_speeds
 from loadflow.rolling.motion.radial_load import LineLaw, behw_law, radial_distribution
 from loadflow.rolling.stiffness.contact_films import richter_plate
 from loadflow.tribology import contact_film as film

@@ -19,7 +19,7 @@ import numpy as np
 from loadflow.journal import JournalBearing
 from loadflow.rolling.motion.history import GRAVITY
 from loadflow.rolling.motion.torque import FrictionTorque, measured_torque
-from loadflow.studies.crank_rig import MAIN, PIN, CrankRig, RowOnRig, Stage
+from loadflow.studies.one_bearing.crank_rig import MAIN, PIN, CrankRig, RowOnRig, Stage
 
 from .check import Check, evidence
 

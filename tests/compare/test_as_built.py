@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.journal.wear_cycle import Cycle
+from loadflow.journal.wear.cycle import Cycle
 from loadflow.rolling.rating.modified_life import viscosity_ratio
 from loadflow.scene.as_built import AsBuilt, grade_width
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.scene import make_scene
-from loadflow.studies import wear_bands
-from loadflow.studies.band_films import deciding_of, films_of
-from loadflow.studies.compare_margins import _film_value, lubrication
-from loadflow.studies.compare_result import Number
-from loadflow.studies.deviations import Built, tolerances_of, with_places
-from loadflow.studies.grown_films import fast_journal
-from loadflow.studies.tolerance_bands import Known, _as_share, _banded, _in_bores, cheap_numbers
-from loadflow.studies.wear_bands import BATCHES, Rubbing, with_error
+from loadflow.studies.candidate import wear_bands
+from loadflow.studies.candidate.deviations import Built, tolerances_of, with_places
+from loadflow.studies.candidate.grown_films import fast_journal
+from loadflow.studies.candidate.margins import _film_value, lubrication
+from loadflow.studies.candidate.result import Number
+from loadflow.studies.candidate.wear_bands import BATCHES, Rubbing, with_error
+from loadflow.studies.compare.band_films import deciding_of, films_of
+from loadflow.studies.compare.bands import Known, _as_share, _banded, _in_bores, cheap_numbers
 
 NONE = {"clearance": 0.0, "viscosity": 0.0, "temperature": 0.0, "roughness": 0.0, "alignment": 0.0}
 MEASURES = {"diameter": 1.0, "width": 0.8, "relative_clearance": 1e-3}

@@ -47,14 +47,13 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
-from loadflow.studies import compare_risks
-from loadflow.studies.compare import _oil, in_wide_bore, judged
-from loadflow.studies.compare_friction import TORQUES, error_together, rolling_losses
-from loadflow.studies.compare_margins import damage_per_hour, margin_of
-from loadflow.studies.compare_numbers import Finished, extreme, of_one_seed, without_shares
-from loadflow.studies.compare_pads import clearance_used
-from loadflow.studies.compare_quantities import QUANTITIES, named_quantities
-from loadflow.studies.compare_result import (
+from loadflow.studies.candidate import risks as compare_risks
+from loadflow.studies.candidate.friction import TORQUES, error_together, rolling_losses
+from loadflow.studies.candidate.margins import damage_per_hour, margin_of
+from loadflow.studies.candidate.numbers import Finished, extreme, of_one_seed, without_shares
+from loadflow.studies.candidate.pads import clearance_used
+from loadflow.studies.candidate.quantities import QUANTITIES, named_quantities
+from loadflow.studies.candidate.result import (
     THRUST,
     UNCARRIED,
     Comparison,
@@ -62,19 +61,20 @@ from loadflow.studies.compare_result import (
     Number,
     missing,
 )
-from loadflow.studies.compare_risks import (
+from loadflow.studies.candidate.risks import (
     events,
     mostly_exceeded,
     rolling_risks,
     spread_over,
     wear,
 )
-from loadflow.studies.compare_seeds import of_life
-from loadflow.studies.compare_supply import leaving, supply_power
-from loadflow.studies.compare_words import conclusion, drawn, facts, reservations
-from loadflow.studies.run_lifetime import NO_SHARE
-from loadflow.studies.seed_intervals import Groups, interval, joint_life
-from loadflow.studies.verdicts import AT_NO_RATIO
+from loadflow.studies.candidate.seeds import of_life
+from loadflow.studies.candidate.supply import leaving, supply_power
+from loadflow.studies.compare.comparison import _oil, in_wide_bore, judged
+from loadflow.studies.compare.words import conclusion, drawn, facts, reservations
+from loadflow.studies.lifetime.of_run import NO_SHARE
+from loadflow.studies.seeds.intervals import Groups, interval, joint_life
+from loadflow.studies.verdicts.verdicts import AT_NO_RATIO
 from loadflow.verdict import Verdict
 
 BROWSER = next(

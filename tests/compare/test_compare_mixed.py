@@ -9,9 +9,9 @@ import xarray as xr
 from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.scene import make_scene
 from loadflow.stages.film_summary import mixed_friction
-from loadflow.studies.compare_mixed import mixed_time
-from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.seed_intervals import Groups
+from loadflow.studies.candidate.mixed import mixed_time
+from loadflow.studies.candidate.numbers import Finished
+from loadflow.studies.seeds.intervals import Groups
 
 SCENE = make_scene({"name": "s", "bearings": "journal-cylindrical", "shaft": {"two_point": {}}})
 CLEARANCE = SCENE.journal.at("N").geometry.clearance / 2

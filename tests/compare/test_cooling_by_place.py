@@ -23,10 +23,10 @@ from loadflow.stages.effects.rolling_heat import ROLLING_HEAT
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.friction import losses
 from loadflow.stages.rolling import warm_bearing
-from loadflow.studies.compare_friction import rolling_losses
-from loadflow.studies.compare_margins import lubrication
-from loadflow.studies.compare_words import _warm
-from loadflow.studies.tolerance_bands import _friction
+from loadflow.studies.candidate.friction import rolling_losses
+from loadflow.studies.candidate.margins import lubrication
+from loadflow.studies.compare.bands import _friction
+from loadflow.studies.compare.words import _warm
 
 AIR = 288.15
 BALLS = {"balls": 60, "rows": 1, "ball_diameter": 0.06, "pitch_diameter": 2.0,

@@ -28,11 +28,11 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
 from loadflow.stages.rolling_at_work import at_work
-from loadflow.studies.design_point import DesignPoint, judge_design
-from loadflow.studies.design_result import best_of, front_of, scene_with_bearings
-from loadflow.studies.design_space import space_of, start_of
-from loadflow.studies.grown_films import fast_journal
-from loadflow.studies.load_spectrum import load_spectrum
+from loadflow.studies.candidate.grown_films import fast_journal
+from loadflow.studies.design.point import DesignPoint, judge_design
+from loadflow.studies.design.result import best_of, front_of, scene_with_bearings
+from loadflow.studies.design.space import space_of, start_of
+from loadflow.studies.lifetime.load_spectrum import load_spectrum
 
 FILM = {
     "geometry.relative_clearance": [0.0006, 0.002],

@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import SolverError
-from loadflow.journal import row_table
+from loadflow.journal.thrust import row_table
 from loadflow.scene.as_built import AsBuilt
 from loadflow.scene.candidate import Candidate
 from loadflow.scene.friction import Friction
@@ -16,21 +16,23 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
 from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import solved
-from loadflow.studies import compare_factor, compare_margins, compare_pads
-from loadflow.studies.compare import _governed
-from loadflow.studies.compare_factor import (
+from loadflow.studies.candidate import factor as compare_factor
+from loadflow.studies.candidate import margins as compare_margins
+from loadflow.studies.candidate import pads as compare_pads
+from loadflow.studies.candidate.deviations import Built, _tilted, tolerances_of
+from loadflow.studies.candidate.factor import (
     WIDEST,
     Margin,
     film_factors,
     grown,
     pressure_factor,
 )
-from loadflow.studies.compare_margins import margin_of
-from loadflow.studies.compare_pads import pad_margins, value_of
-from loadflow.studies.deviations import Built, _tilted, tolerances_of
-from loadflow.studies.pad_films import PadFilms, pad_films
-from loadflow.studies.thrust_point import thrust_point
-from loadflow.studies.tolerance_bands import _samples_of_pads, cheap_numbers
+from loadflow.studies.candidate.margins import margin_of
+from loadflow.studies.candidate.pad_films import PadFilms, pad_films
+from loadflow.studies.candidate.pads import pad_margins, value_of
+from loadflow.studies.compare.bands import _samples_of_pads, cheap_numbers
+from loadflow.studies.compare.comparison import _governed
+from loadflow.studies.one_bearing.thrust import thrust_point
 
 LANDS = {"pads": 6, "inner_radius": 0.8, "outer_radius": 1.2, "pad_angle": 0.9, "taper": 1e-4}
 

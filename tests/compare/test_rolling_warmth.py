@@ -10,10 +10,10 @@ from loadflow.rolling import BallBearing
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.friction import Friction
 from loadflow.stages.rolling import warm_bearing
-from loadflow.studies.compare_factor import grown
-from loadflow.studies.compare_friction import rolling_losses
-from loadflow.studies.compare_margins import looked_at, lubrication
-from loadflow.studies.rolling_warmth import HOTTEST, Warmth, warmest, warmth_of
+from loadflow.studies.candidate.factor import grown
+from loadflow.studies.candidate.friction import rolling_losses
+from loadflow.studies.candidate.margins import looked_at, lubrication
+from loadflow.studies.candidate.rolling_warmth import HOTTEST, Warmth, warmest, warmth_of
 
 COOLING, AIR = 40.0, 288.15
 

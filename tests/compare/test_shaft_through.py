@@ -9,8 +9,8 @@ from synthetic import case
 from loadflow.scene.scene import Candidate, make_scene
 from loadflow.shaft import Beam, ShaftSection, TwoPoint, bearing_loads
 from loadflow.stages import shaft
-from loadflow.studies.design_point import judge_design
-from loadflow.studies.load_spectrum import load_spectrum
+from loadflow.studies.design.point import judge_design
+from loadflow.studies.lifetime.load_spectrum import load_spectrum
 from loadflow.studies.shaft_through import BentShaft, fitting_shaft, through
 
 STATED = Beam(sections=(ShaftSection(2.4, 1.2, length=2.5), ShaftSection(2.0, 0.9)))

@@ -16,9 +16,9 @@ from loadflow.journal import (
     Taper,
     ThrustBearing,
 )
-from loadflow.journal.collar_motion import FOLLOWED, backward, rates
-from loadflow.journal.collar_series import CollarSeries
-from loadflow.journal.row_table import (
+from loadflow.journal.thrust.collar_motion import FOLLOWED, backward, rates
+from loadflow.journal.thrust.collar_series import CollarSeries
+from loadflow.journal.thrust.row_table import (
     DAMPING,
     FLOW,
     FORCE,
@@ -77,7 +77,7 @@ def test_the_moment_of_a_tilted_collar_is_the_slope_of_its_films():
 def test_a_temperature_that_is_not_found_is_no_answer(monkeypatch):
     series = CollarSeries(COLLAR, WARM, CONTACT)
     assert series.equilibrium(FORCES, SPEEDS).converged.all()
-    monkeypatch.setattr("loadflow.journal.collar_sides.TRIES", 1)
+    monkeypatch.setattr("loadflow.journal.thrust.collar_sides.TRIES", 1)
     found = series.equilibrium(FORCES, SPEEDS)
     assert not found.converged.any()
     assert np.isnan(found.temperature).all()

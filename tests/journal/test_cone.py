@@ -21,7 +21,7 @@ from loadflow.journal import (
     Reynolds,
     Sommerfeld,
 )
-from loadflow.journal.solvers.assembly_search import Chart, around, search
+from loadflow.journal.solvers.assembly.search import Chart, around, search
 from loadflow.numerics.convergence import Limits
 from loadflow.validation import thrust as exact
 

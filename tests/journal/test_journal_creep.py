@@ -7,10 +7,12 @@ import pytest
 
 from loadflow.journal import Contact, Film, GasMixture, JournalBearing, LocalShell, Lubricant
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed_creep, composed_rest, grid
-from loadflow.journal.models import composed_film as at
-from loadflow.journal.models._composed_loops import solve
-from loadflow.journal.models.composed_model import build
+from loadflow.journal.models import grid
+from loadflow.journal.models.composed import creep as composed_creep
+from loadflow.journal.models.composed import film as at
+from loadflow.journal.models.composed import rest_on_level as composed_rest
+from loadflow.journal.models.composed.kernels._loops import solve
+from loadflow.journal.models.composed.model import build
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.tribology import AsperityContact
 

@@ -28,7 +28,7 @@ from loadflow.journal import (
     Supply,
     ThrustBearing,
 )
-from loadflow.journal.solvers import assembly_error
+from loadflow.journal.solvers.assembly import error as assembly_error
 from loadflow.tribology import AsperityContact, ExponentialOil
 
 OIL = Lubricant(0.03)

@@ -12,7 +12,8 @@ from loadflow.journal import JournalBearing
 from loadflow.journal.film import cell_error
 from loadflow.journal.grid_bounds import BOUNDED
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed_model, reduced
+from loadflow.journal.models import reduced
+from loadflow.journal.models.composed import model as composed_model
 from loadflow.journal.questions import AtRest
 from loadflow.numerics.convergence import Limits
 

@@ -22,7 +22,7 @@ from loadflow.journal import (
     Sommerfeld,
     TiltingPads,
 )
-from loadflow.journal.models import composed_path
+from loadflow.journal.models.composed import path as composed_path
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 3.0, "width": 2.25, "relative_clearance": 0.5e-3}

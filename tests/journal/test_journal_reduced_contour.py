@@ -25,8 +25,8 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.line import Line
-from loadflow.journal.models.composed_model import build
-from loadflow.journal.models.composed_uneven import Thickness
+from loadflow.journal.models.composed.model import build
+from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}

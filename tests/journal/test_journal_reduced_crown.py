@@ -19,7 +19,7 @@ from loadflow.journal import (
     Recess,
     TiltingPads,
 )
-from loadflow.journal.models import composed_model
+from loadflow.journal.models.composed import model as composed_model
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 3.0, "width": 2.25, "relative_clearance": 0.5e-3}

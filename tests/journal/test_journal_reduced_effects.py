@@ -20,7 +20,9 @@ from loadflow.journal import (
     MassConserving,
     Reynolds,
 )
-from loadflow.journal.models import composed_model, composed_path, reduced
+from loadflow.journal.models import reduced
+from loadflow.journal.models.composed import model as composed_model
+from loadflow.journal.models.composed import path as composed_path
 from loadflow.journal.models.width_modes import half_width_nodes, lobatto, whole_width
 from loadflow.tribology import AsperityContact
 

@@ -17,7 +17,7 @@ from loadflow.journal import (
     Supply,
 )
 from loadflow.journal.line import Line
-from loadflow.journal.models.composed_model import build, unknowns_on
+from loadflow.journal.models.composed.model import build, unknowns_on
 
 WIDE = JournalBearing(0.2, 0.15, 1e-3)
 FED = Film(

@@ -23,7 +23,7 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
-from loadflow.journal.models import composed
+from loadflow.journal.models.composed import at_rest as composed
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}

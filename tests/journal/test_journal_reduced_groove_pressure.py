@@ -21,7 +21,7 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.line import Line
-from loadflow.journal.models.composed_model import build, unknowns_on
+from loadflow.journal.models.composed.model import build, unknowns_on
 
 FORCE, SPEED, BETWEEN = (4e4, 1e4), 60.0, 3e5
 FILM = Film(Lubricant(0.03), MassConserving(), edge_pressure=1e5, grid=(72, 16))

@@ -27,8 +27,8 @@ from loadflow.journal import (
 )
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid as grid_rung
-from loadflow.journal.models.composed_rest import films_at_rest
-from loadflow.journal.models.composed_uneven import EVEN, Thickness
+from loadflow.journal.models.composed.rest_on_level import films_at_rest
+from loadflow.journal.models.composed.uneven import EVEN, Thickness
 from loadflow.journal.questions import AtRest
 from loadflow.journal.solvers.warm import coupled
 from loadflow.numerics.convergence import Limits

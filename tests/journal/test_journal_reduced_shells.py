@@ -28,9 +28,9 @@ from loadflow.journal import (
 from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.discretise import mesh_in_bore
 from loadflow.journal.film.gap_mesh import shaped_mesh
-from loadflow.journal.models.composed_shell import _split
-from loadflow.journal.models.shared_path import follow_shared
-from loadflow.journal.models.shared_sides import Lying
+from loadflow.journal.models.composed.shared_path import follow_shared
+from loadflow.journal.models.composed.shared_sides import Lying
+from loadflow.journal.models.composed.shell import _split
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
 BEARING, SPEED, LOAD = JournalBearing(**SIZE), 60.0, np.array([6e3, -2.5e4])

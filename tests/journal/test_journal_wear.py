@@ -25,8 +25,8 @@ from loadflow.journal import (
     Wear,
     wear_bearing,
 )
-from loadflow.journal.wear_cycle import followed
-from loadflow.journal.worn_surface import Group, Surface
+from loadflow.journal.wear.cycle import followed
+from loadflow.journal.wear.worn_surface import Group, Surface
 from loadflow.scene.cases import list_cases
 from loadflow.scene.lifetime_shares import YEAR
 from loadflow.scene.scene import make_scene

@@ -17,8 +17,8 @@ from loadflow.journal import (
     TiltingPads,
 )
 from loadflow.journal.film_model import Film
-from loadflow.journal.models import _pad_loops, _shared_pad_kernels
-from loadflow.journal.models.composed_pads import make_pad_work, narrowest_on_pads
+from loadflow.journal.models.composed.kernels import _pad_loops, _shared_pad_kernels
+from loadflow.journal.models.composed.pads import make_pad_work, narrowest_on_pads
 
 BEARING = JournalBearing(1.4, 1.3, 1e-3, shape=TiltingPads(5, 1.05, preload=0.2, angle=0.628))
 SPEED, PERIOD = 1.2, 3.0

@@ -10,7 +10,7 @@ from loadflow.journal import Film, Groove, JournalBearing, Lubricant, Supply, Tu
 from loadflow.journal.cavitation import GasMixture
 from loadflow.journal.contact import Contact
 from loadflow.journal.line import Line
-from loadflow.journal.models.composed_model import build
+from loadflow.journal.models.composed.model import build
 from loadflow.journal.shells import LocalShell
 from loadflow.tribology.asperities import AsperityContact
 

@@ -14,7 +14,7 @@ from loadflow.journal import (
     Step,
     ThrustBearing,
 )
-from loadflow.journal.thrust_curves import CollarCurves
+from loadflow.journal.thrust.curves import CollarCurves
 
 LANDS = ThrustBearing(10, 0.75, 1.05, pad_angle=0.56, taper=6e-5)
 STEPPED = ThrustBearing(10, 0.75, 1.05, pad_angle=0.56, profile=Step(6e-5))

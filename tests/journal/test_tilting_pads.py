@@ -22,8 +22,8 @@ from loadflow.journal import (
 )
 from loadflow.journal.film.pad_curve import pad_curve
 from loadflow.journal.line import Line
-from loadflow.journal.models import composed_film as at
-from loadflow.journal.models.composed_path import Drive, march_of
+from loadflow.journal.models.composed import film as at
+from loadflow.journal.models.composed.path import Drive, march_of
 from loadflow.journal.questions import Steps
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import no_film

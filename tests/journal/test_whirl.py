@@ -15,10 +15,10 @@ from loadflow.stages.comparisons import compare
 from loadflow.stages.film_summary import extremes, warnings
 from loadflow.stages.journal import orbit
 from loadflow.stages.whirl import whirling
-from loadflow.studies.compare import whirl
-from loadflow.studies.compare_numbers import Finished
-from loadflow.studies.compare_quantities import QUANTITIES
-from loadflow.studies.seed_intervals import Groups
+from loadflow.studies.candidate.numbers import Finished
+from loadflow.studies.candidate.quantities import QUANTITIES
+from loadflow.studies.compare.comparison import whirl
+from loadflow.studies.seeds.intervals import Groups
 
 SPEED, STEP = 1.2, 0.05
 WIDE = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)

@@ -7,7 +7,7 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.readers import list_names, read_loads
 from loadflow.readers.names import label_from_name, plain_dlc
-from loadflow.studies.extreme_loads import safety_factor
+from loadflow.studies.lifetime.extreme_loads import safety_factor
 from loadflow.wind.cases import row_of
 
 NAMES = {

@@ -8,7 +8,7 @@ import pytest
 
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import RollerBearing, edge_contact, hertz_point
-from loadflow.studies.rolling_point import rolling_point
+from loadflow.studies.one_bearing.rolling import rolling_point
 
 ROLLER = RollerBearing(
     rollers=12,

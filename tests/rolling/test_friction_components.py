@@ -11,9 +11,9 @@ from roller_energy import rib_shear
 from scipy.integrate import quad
 
 from loadflow.errors import InputError, SolverError
-from loadflow.rolling import friction
+from loadflow.rolling import friction, kinematics
 from loadflow.rolling.friction import catalogue, coulomb, guides, roller_drag, rolling_resistance
-from loadflow.rolling.motion import kinematics, radial_load
+from loadflow.rolling.motion import radial_load
 from loadflow.tribology import asperities, contact_film, traction
 from loadflow.validation.friction import MAIN, MAIN_RACES, MODULUS
 

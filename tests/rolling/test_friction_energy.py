@@ -11,7 +11,7 @@ from roller_energy import RollerState, energy_audit, roller_torques
 from loadflow.errors import InputError, SolverError
 from loadflow.rolling import FrictionOptions, RollerBearing, friction, roller_friction
 from loadflow.rolling.friction import rolling_resistance
-from loadflow.rolling.motion.kinematics import contact_speeds, ideal_speeds
+from loadflow.rolling.kinematics import contact_speeds, ideal_speeds
 from loadflow.tribology import lubricant, traction
 from loadflow.validation.friction import MAIN, MAIN_BEARING, MAIN_RACES, MODULUS
 

@@ -26,7 +26,7 @@ from loadflow.rolling.motion.torque import (
     film_torque,
     measured_torque,
 )
-from loadflow.studies.crank_rig import MAIN, CrankRig
+from loadflow.studies.one_bearing.crank_rig import MAIN, CrankRig
 from loadflow.tribology import lubricant
 
 OMEGA = 3000 * math.pi / 30

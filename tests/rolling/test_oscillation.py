@@ -18,7 +18,7 @@ from loadflow.rolling.rating.oscillation import IDLE_TORQUES, MOUNTING_FACTORS
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import PitchBearing, YawBearing, pitch_loads, yaw_loads
 from loadflow.stages import friction, loads, reduction, rolling, shaft
-from loadflow.studies.verdicts import verdicts
+from loadflow.studies.verdicts.verdicts import verdicts
 
 BLADE = SlewingBearing(
     balls=129, rows=2, ball_diameter=0.04, pitch_diameter=1.9, groove_radius=0.0205,

@@ -5,7 +5,7 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
-from loadflow.studies.compare_words import drawn
+from loadflow.studies.compare.words import drawn
 
 COLD = {"temperature": 253.15}
 WARM = {"bearings": ["N"], "heat": {"transfer": 100.0}}

@@ -10,7 +10,7 @@ import xarray as xr
 
 from loadflow.errors import InputError, SolverError, ValidityWarning
 from loadflow.journal import Control
-from loadflow.journal.models.shared_path import SharedPath
+from loadflow.journal.models.composed.shared_path import SharedPath
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.shaft_place import move_together
 from loadflow.shaft import Beam, BearingSupport, MomentBearing, ShaftSection, TwoPoint, reactions
@@ -22,7 +22,7 @@ from loadflow.stages.film_past import AT_REST
 from loadflow.stages.film_support import film_model
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together, followed_together
-from loadflow.studies.compare_factor import at_place, grown
+from loadflow.studies.candidate.factor import at_place, grown
 from loadflow.turbines import load_turbine
 
 STEPS, STEP = 600, 0.05

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import InputError
-from loadflow.journal.models import shared_sides
+from loadflow.journal.models.composed import shared_sides
 from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.scene.shaft_place import move_together

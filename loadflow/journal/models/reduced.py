@@ -3,7 +3,7 @@
 Across the width the pressure is an even polynomial through `POINTS` Gauss–Lobatto points; around,
 the cells are those of the rung "grid", and so are law, time steps and scales. Cells are fixed to
 the shell: there is no inlet line. A film with a shaft that tilts or bends, asperities, a shell that
-gives way or grooves of a supply is one of `loadflow.journal.models.composed`.
+gives way or grooves of a supply is one of `loadflow.journal.models.composed.at_rest`.
 """
 
 from __future__ import annotations
@@ -26,18 +26,16 @@ from loadflow.journal.film.gap_shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
-from loadflow.journal.models import (
-    composed,
-    composed_closed,
-    composed_heat,
-    composed_heat_position,
-    composed_path,
-    composed_position,
-    grid,
-)
+from loadflow.journal.models import grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
-from loadflow.journal.models.composed_error import Judged
+from loadflow.journal.models.composed import at_rest as composed
+from loadflow.journal.models.composed import closed_path as composed_closed
+from loadflow.journal.models.composed import heat as composed_heat
+from loadflow.journal.models.composed import heat_position as composed_heat_position
+from loadflow.journal.models.composed import path as composed_path
+from loadflow.journal.models.composed import position as composed_position
+from loadflow.journal.models.composed.error import Judged
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.reduced_film import Reduced, Work, make_work

@@ -32,7 +32,7 @@ from loadflow.rolling.friction.bearing import (
 from loadflow.rolling.friction.contact_films import Ring, groove_film
 from loadflow.rolling.friction.differential_slip import sliding_coefficient
 from loadflow.rolling.friction.options import FrictionOptions
-from loadflow.rolling.motion.kinematics import entrainment_speed
+from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.results import ContactResult
 from loadflow.tribology.hertz import effective_modulus

@@ -36,7 +36,7 @@ from loadflow.rolling.friction.differential_slip import (
     sliding_coefficient,
 )
 from loadflow.rolling.friction.options import FrictionOptions
-from loadflow.rolling.motion.kinematics import entrainment_speed
+from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.results import ContactResult
 from loadflow.rolling.roller_raceways import RollerRaceways
 from loadflow.tribology import asperities

@@ -1,6 +1,6 @@
 """What the rollers of one row go through: speeds, loads, inertia and weight of each, over time.
 
-Rollers sit where an ideal cage carries them. Signs as in `loadflow.rolling.motion.kinematics`.
+Rollers sit where an ideal cage carries them. Signs as in `loadflow.rolling.kinematics`.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.numerics.fields import check_fields
+from loadflow.rolling.kinematics import Value
 from loadflow.rolling.motion.crank import CrankDrive
-from loadflow.rolling.motion.kinematics import Value
 from loadflow.rolling.motion.radial_load import LineLaw, radial_distribution
 from loadflow.rolling.rings.equilibrium import FlexibleRingForces
 

@@ -18,7 +18,7 @@ from loadflow.errors import InputError
 from loadflow.rolling.friction import coulomb
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.friction.roller_drag import DragConstants
-from loadflow.rolling.motion.kinematics import contact_speeds
+from loadflow.rolling.kinematics import contact_speeds
 from loadflow.rolling.motion.rollers import RollerMotion, film_arguments, film_numbers
 
 Array = NDArray[np.float64]

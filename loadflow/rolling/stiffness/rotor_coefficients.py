@@ -19,7 +19,7 @@ from loadflow.rolling.friction.contact_films import (
 )
 from loadflow.rolling.friction.options import FrictionOptions
 from loadflow.rolling.geometry import RollingGeometry
-from loadflow.rolling.motion.kinematics import entrainment_speed
+from loadflow.rolling.kinematics import entrainment_speed
 from loadflow.rolling.raceways import BallRaceways
 from loadflow.rolling.results import ContactResult
 from loadflow.rolling.roller_raceways import RollerRaceways

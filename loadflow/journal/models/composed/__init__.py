@@ -1,0 +1,1 @@
+"""The rung "reduced" with effects: at rest, at positions, through time, with and without heat."""

@@ -1,0 +1,1 @@
+"""One bearing arrangement: its numbers, how far they are from their limits, and how sure."""

@@ -1,0 +1,1 @@
+"""Load series → fewer loads to calculate with, and what that costs."""

@@ -1,0 +1,1 @@
+"""What bearings go through in a lifetime: fatigue, revolutions, extremes, energy."""

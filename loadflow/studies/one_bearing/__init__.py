@@ -1,0 +1,1 @@
+"""One bearing under one load or one series, without a scene."""

@@ -1,0 +1,1 @@
+"""Random seeds: which are equal, which belong together, whether they are enough."""
