@@ -80,6 +80,16 @@ def test_no_rooms_import_each_other_in_a_circle():
     assert circles({name: found - {name, ""} for name, found in graph.items()}) == ROOM_CIRCLES
 
 
+def test_no_folders_of_a_room_import_each_other_in_a_circle():
+    """Modules right in a room, not in a folder of it, may stand above and below its folders."""
+    graph: Graph = {}
+    for name, found in imports().items():
+        targets = {folder(target) for target, _ in found} - {"", folder(name)}
+        graph.setdefault(folder(name), set()).update(one for one in targets if room(name) in one)
+    graph.pop("")
+    assert circles(graph) == set()
+
+
 def test_no_private_name_is_used_in_another_room():
     found = {
         f"{name}: {target}.{what}".rstrip(".")
@@ -143,6 +153,13 @@ def absolute(package: list[str], node: ast.ImportFrom) -> str:
     """Full name of the module that an import names, relative to `package` or not."""
     above = package[: len(package) - node.level + 1] if node.level else []
     return ".".join([*above, *filter(None, [node.module])])
+
+
+def folder(module: str) -> str:
+    """Room and folder of a module in one, such as ``rolling.rating``; empty for others."""
+    parts = module.split(".")
+    package = parts if (ROOT.joinpath(*parts[1:])).is_dir() else parts[:-1]
+    return ".".join(package[1:3]) if len(package) > 2 else ""
 
 
 def room(module: str) -> str:

@@ -3,26 +3,23 @@
 ===============  =========================================================================
 `bearing`        `JournalBearing`: what the user calls
 `film_model`     `Film`: one description of the film; `lubricant`, `cavitation`: its liquid and laws
-`thrust`         thrust bearings; `double_thrust`: a collar between two; `collar_series`: in series
-`pad_heat`       oil of pads: `PadHeat`; `warm_pads`: their heat balance
-`cone`           conical bearings; `conical_pair`: two of them
-`pad_bearing`    what these share; `pads`: rows of pads and their supports
 `surfaces`       cone, plane ring, straight pad, profiles
 `shapes`         how the bore runs around; `relief`: what is cut into it or deforms it
 `seat`           seats on which shells and pads align themselves
 `shells`         elastic shells; `housings`: those in a housing on feet or a flange
 `contact`        asperities; `stribeck`: friction over speed
 `crowning`       best crown for a spectrum of loads
-`wear`           wear of a bore over a lifetime of starts and stops; `wear_cycle`: one of them;
-                 `worn_surface`: its points
 `supply`         grooves, pockets, restrictors, pump
 `results`        what comes back; `rows`: how solved films become results
-`heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results` what comes back
+`heat`           oil and cooling: `Heat`, `FilmHeat`; `heat_results`: answers; `pad_heat`: oil
+                 of pads
 `thermal`        heat balance; `energy`: losses against the power of the shaft
 `turbulence`     turbulent flow in the film
 `validity`       limits of the model: laminar flow
 `grid_bounds`    bounds of the error of the cells; `grid_error`: from coarser grids
 `dimensionless`  a bearing in numbers without dimension
+`thrust`         thrust and conical bearings: pads and their supports, single or in pairs, in series
+`wear`           wear of a bore over a lifetime of starts and stops
 `film`           the discrete film: mesh, gap, balance, grooves, elastic shells, kernels
 `models`         the rungs: charts, mobility map, few unknowns across the width
 `solvers`        statics, steps in time, closed orbits

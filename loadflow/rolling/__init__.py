@@ -14,7 +14,7 @@
 `rings`           flexible rings: beams, finite elements, given matrices, condensed; dynamics
 `rating`          capacities, rating life, modified life, static safety
 `friction`        components of friction, catalogues, slewing bearings
-`motion`          kinematics, slip and inertia of rolling elements, crank drive, cage
+`kinematics`      speeds of elements and cage; `motion`: their slip and inertia, crank drive, cage
 `stiffness`       6 × 6 stiffness in closed form, films and damping, rotor coefficients
 ================  ============================================================================
 """

@@ -28,6 +28,8 @@ class RollingGeometry(ABC):
 
     Attributes
     ----------
+    kind : str
+        Name in scenes and on the command line.
     element : {"ball", "roller"}
         What rolls.
     group_dims : tuple of str
@@ -44,6 +46,7 @@ class RollingGeometry(ABC):
         Tilt of the shaft in it that its contacts bear, rad; None of bearings for moments.
     """
 
+    kind: ClassVar[str]
     element: ClassVar[Literal["ball", "roller"]]
     group_dims: ClassVar[tuple[str, ...]] = ("row",)
     life_exponent: ClassVar[float]

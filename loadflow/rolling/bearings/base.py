@@ -169,8 +169,6 @@ class RollingBearing(RollingGeometry):
 
     Attributes
     ----------
-    kind : str
-        Name in scenes and on the command line.
     friction_model : {"balls", "rollers"}, optional
         Model of the friction of its contacts; None where there is none.
     torque_models : mapping
@@ -189,7 +187,6 @@ class RollingBearing(RollingGeometry):
     (True, 'ball', True)
     """
 
-    kind: ClassVar[str]
     words: ClassVar[str] = "rolling bearing"
     friction_model: ClassVar[Literal["balls", "rollers"] | None] = None
     torque_models: ClassVar[Mapping[TorqueModel, float]] = MappingProxyType({})

@@ -13,7 +13,7 @@ from loadflow.rolling.contacts import row_sides
 from loadflow.verdict import Verdict
 
 if TYPE_CHECKING:
-    from loadflow.rolling.bearings.base import RollingBearing
+    from loadflow.rolling.geometry import RollingGeometry
 
 Array = NDArray[np.float64]
 
@@ -50,7 +50,7 @@ def static_load(radial: ArrayLike, axial: ArrayLike, x0: float, y0: float) -> Ar
 
 
 def static_overload(
-    bearing: RollingBearing, radial: ArrayLike, axial: ArrayLike, moment: ArrayLike
+    bearing: RollingGeometry, radial: ArrayLike, axial: ArrayLike, moment: ArrayLike
 ) -> Array:
     """Static equivalent load over the static capacity of a bearing: above 1 it is overloaded.
 
@@ -60,7 +60,7 @@ def static_overload(
 
     Parameters
     ----------
-    bearing : RollingBearing
+    bearing : RollingGeometry
         Of any kind.
     radial, axial : array_like
         Forces, N.
@@ -84,7 +84,7 @@ def static_overload(
     return np.asarray(load / bearing.static_capacity)
 
 
-def _radial_factors(bearing: RollingBearing) -> tuple[float, float]:
+def _radial_factors(bearing: RollingGeometry) -> tuple[float, float]:
     """X₀ and Y₀ of a radial bearing, ISO 76.
 
     It has 0.5 and Y₀ of one row, also of rows in tandem, and 1 and twice that Y₀ of two that face.

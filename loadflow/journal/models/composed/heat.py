@@ -1,7 +1,7 @@
 """Heat over the area of a reduced film of cells around and points across, at rest and in motion.
 
-Temperatures are those of strips, see `composed.strip_film`. In motion they are those of the mean heat of
-films at rest under loads of the series, as on the grid.
+Temperatures are those of strips, see `composed.strip_film`. In motion they are those of the mean
+heat of films at rest under loads of the series, as on the grid.
 """
 
 from __future__ import annotations
