@@ -84,8 +84,8 @@ def test_no_folders_of_a_room_import_each_other_in_a_circle():
     """Modules right in a room, not in a folder of it, may stand above and below its folders."""
     graph: Graph = {}
     for name, found in imports().items():
-        targets = {folder(target) for target, _ in found} - {"", folder(name)}
-        graph.setdefault(folder(name), set()).update(one for one in targets if room(name) in one)
+        own = {folder(target) for target, _ in found if room(target) == room(name)}
+        graph.setdefault(folder(name), set()).update(own - {"", folder(name)})
     graph.pop("")
     assert circles(graph) == set()
 
@@ -156,7 +156,7 @@ def absolute(package: list[str], node: ast.ImportFrom) -> str:
 
 
 def folder(module: str) -> str:
-    """Room and folder of a module in one, such as ``rolling.rating``; empty for others."""
+    """Room and first folder of a module in one, as ``rolling.rating``; empty for others."""
     parts = module.split(".")
     package = parts if (ROOT.joinpath(*parts[1:])).is_dir() else parts[:-1]
     return ".".join(package[1:3]) if len(package) > 2 else ""

@@ -15,7 +15,7 @@
                  of pads
 `thermal`        heat balance; `energy`: losses against the power of the shaft
 `turbulence`     turbulent flow in the film
-`validity`       limits of the model: laminar flow
+`validity`       limits of the model: laminar flow, pressure that oil and shell bear
 `grid_bounds`    bounds of the error of the cells; `grid_error`: from coarser grids
 `dimensionless`  a bearing in numbers without dimension
 `thrust`         thrust and conical bearings: pads and their supports, single or in pairs, in series

@@ -132,6 +132,12 @@ class JournalBearing(JournalGeometry):
         SolverError
             A load at ω = 0 (no film without squeeze), no convergence, a film that gets too hot, or
             a shaft that touches the bore wherever it is; names the first such load.
+
+        Warns
+        -----
+        ValidityWarning
+            Turbulent flow without `turbulence`, cells that do not resolve the film, a pressure that
+            oil and shell do not bear.
         """
         film, control = film_and_control(film, more, control, keywords)
         limits = control.limits(tolerance=1e-10, max_iterations=60)

@@ -68,6 +68,7 @@ class Effort:
 
 EFFORTS = (Effort(2, 100.0), Effort(1, 60.0), Effort(1, 60.0, thorough=False))
 """From the most on. The least is taken where even that is more than its `SHARE`."""
+
 Report = Callable[[str, int, int], None]
 Item = TypeVar("Item")
 Outcome = TypeVar("Outcome")

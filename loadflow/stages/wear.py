@@ -12,6 +12,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from loadflow.errors import ValidityWarning
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.wear.cycle import Cycle
 from loadflow.journal.wear.lifetime import TOUCHING, wear_bearing
 from loadflow.journal.wear.worn_bearing import WornBearing
@@ -90,7 +91,7 @@ def _worn(
     held = options
     if temperatures:
         held = options.at_temperature(float(np.mean(temperatures)))
-    with warnings.catch_warnings():  # the films of the run have told of their ends
+    with unresolved_counted():  # the films of the run have told of all this, and of their ends
         warnings.filterwarnings("ignore", 'rung "reduced": the pressure at', ValidityWarning)
         return wear_bearing(options.geometry, cycles, held.film_model, scene.wear.model)
 

@@ -1243,7 +1243,7 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
 @pytest.mark.parametrize(
     "module",
     [
-        "report.sketch", "studies.seed_intervals", "scene.candidates", "scene.schema",
+        "report.sketch", "studies.seeds.intervals", "scene.candidates", "scene.schema",
         "scene.templates",
     ],
 )  # fmt: skip

@@ -8,6 +8,7 @@ import pytest
 
 from loadflow.errors import ValidityWarning
 from loadflow.journal import Film, JournalBearing, Lubricant
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.validity import LARGEST_PRESSURE
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
@@ -34,3 +35,12 @@ def test_films_of_today_are_not_warned_of():
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         BEARING.equilibrium((2e5, 0.0), 100.0, Film(Lubricant(0.05), grid=(96, 16)))
+
+
+def test_who_keeps_the_pressure_of_every_film_is_not_warned_of_it():
+    film = Film(Lubricant(1.0), grid=(96, 12), inlet=None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with unresolved_counted():
+            found = BEARING.pressure((9.9e-5, 0.0), 300.0, film)
+    assert found.maximum_pressure > LARGEST_PRESSURE

@@ -190,6 +190,23 @@ def test_a_cycle_without_contact_or_without_speed_settles_at_once(monkeypatch):
     assert asked == [3, 5] * 2
 
 
+def test_a_cycle_that_rubs_evenly_or_hardly_at_all_settles_at_once(recwarn):
+    """Asperities without friction wear, too; others that carry next to nothing do not."""
+    surface = film(GasMixture(5e4), 1.5e5)
+    smooth = replace(surface, contact=Contact(ROUGH, friction=0.0))
+    pressed = Cycle([0.0, 1.0, 2.0], [(LOAD, 0.0)] * 3, [0.5] * 3)
+    swinging = Cycle(
+        np.arange(7.0), [(LOAD * (1 + 0.3 * (-1) ** k), 0.0) for k in range(7)], [5.0] * 7
+    )
+    steady, found = followed(BEARING, pressed, smooth)
+    assert steady.time.size == 5
+    assert found["contact_share"].min() > 0.01
+    finer, found = followed(BEARING, swinging, surface)
+    assert finer.time.size < 49
+    assert 0.0 < found["contact_share"].max() < 1e-6
+    assert not any("samples that are closer" in str(told.message) for told in recwarn)
+
+
 def test_a_surface_runs_in_first_fast_then_slowly():
     running_in = RunningIn(
         initial_roughness=0.5e-6, final_roughness=0.2e-6, depth=0.2e-6, excess=5.0

@@ -19,7 +19,9 @@ from loadflow.numerics.fields import require
 Array = NDArray[np.float64]
 
 _PARTS = (1, 2, 4, 8, 16)  # steps in motion from each sample of a cycle to the next
-_SETTLED = 0.01  # error of the friction energy of a cycle by its steps
+_SETTLED = 0.01  # error of what a cycle rubs by its steps
+_SLIGHT = 1e-6  # of the load all along: what asperities rub under less of it wears nothing
+_BARELY = 4.0  # roughnesses between surfaces whose asperities carry about that
 _WIDE = 1.0  # m, wider than any film, of a shaft that never turns
 
 
@@ -38,8 +40,8 @@ class Cycle:
     count : float
         How often it happens in the whole time that is looked at.
     in_motion : bool
-        Follow the shaft through time, squeeze included, in up to 16 steps a sample, until the
-        friction energy of its asperities is known to 1 % (a warning tells where it is not); loads
+        Follow the shaft through time, squeeze included, in up to 16 steps a sample, until
+        load on its asperities times way is known to 1 % (a warning tells where it is not); loads
         and speed are straight lines between the samples. Else each sample is an equilibrium.
     tilt, bend : array (n, 2), optional
         How the shaft lies, rad and 1/m, as in `JournalBearing.orbit`.
@@ -144,31 +146,33 @@ def _path(
     control: Control | None,
     start: Array | None,
 ) -> tuple[Cycle, dict[str, Array]]:
-    """A cycle in motion, in steps so short that its friction energy settles.
+    """A cycle in motion, in steps so short that load on its asperities times way settles.
 
     A shaft leaves its asperities faster than the samples of a start tell, or meets them between
     two of these. Steps of one length need no rest to go on from.
     """
-    reach = 0.0 if film.contact is None else film.contact.asperities.reach
-    energy = narrow = np.nan
+    tips = None if film.contact is None else film.contact.asperities
+    barely = 0.0 if tips is None else tips.summit_height + _BARELY * tips.roughness
+    slight = _SLIGHT * float(cycle.distance(bearing.radius) @ np.hypot(*cycle.force.T))
+    rubbed = narrow = np.nan
     for parts in _PARTS:
         finer = cycle.divided(parts)
         given: dict[str, Any] = {"force": finer.force, "speed": finer.speed} | finer.line()
         given |= {} if start is None else {"start": start}
         path = bearing.orbit(finer.time, film=film, control=control, **given)
         found = {name: path[name].values for name in _FOLLOWED}
-        before, energy = energy, float(finer.seconds @ found["contact_power"])
+        load = np.hypot(*found["contact_force"].T)
+        before, rubbed = rubbed, float(finer.distance(bearing.radius) @ load)
         turns = np.abs(finer.speed) > 0.0
         wider, narrow = narrow, float(found["minimum_film"][turns].min(initial=_WIDE))
-        if energy > 0.0:
-            settled = abs(energy - before) <= 3.0 * _SETTLED * energy  # steps are of second order
-        else:  # a film that comes no nearer between its steps than they tell
-            settled = narrow - abs(narrow - wider) > reach
+        settled = abs(rubbed - before) <= 3.0 * _SETTLED * max(rubbed, slight)  # of second order
+        if rubbed <= slight:  # nor may the film come nearer between its steps than they tell
+            settled = settled and narrow - abs(narrow - wider) > barely
         if settled:
             break
     else:
         warnings.warn(
-            f"{cycle.name}: in {_PARTS[-1]} steps a sample the friction energy of the asperities "
+            f"{cycle.name}: in {_PARTS[-1]} steps a sample load on asperities times way "
             f"is not known to {_SETTLED:.0%}; samples that are closer together tell it",
             ValidityWarning,
             stacklevel=2,

@@ -13,8 +13,8 @@ from loadflow.journal.solvers.assembly.solve import Assembly
 
 Array = NDArray[np.float64]
 
-# of what films lack at most, where they lack it of unlike signs: pads whose cells are alike lack
-# load of the same sign, which leaves a shaft between them where it is
+# of the sum of sizes of what films lack, at least: signs cancel where pads are alike, which leaves
+# a shaft between them where it is, but not all of it (docs/journal-numerics.md has the draws)
 _UNLIKE = 0.3
 
 
