@@ -13,6 +13,7 @@ from loadflow.cli import main
 from loadflow.cli.lists import LISTS
 from loadflow.errors import InputError, SolverError
 from loadflow.planning.effects import EffectVerdict, switched
+from loadflow.planning.ladder import expected_seconds
 from loadflow.planning.pilot import (
     EFFORTS,
     Questions,
@@ -438,6 +439,23 @@ def test_elastic_rings_of_rollers_are_switched_on_where_sections_are_stated(cube
         size = rings.indicator(situation(one, list_cases(one)))
         assert 0.2 < size["life"] <= 0.28
         assert 0.15 < size["maximum force"] <= 0.21
+
+
+def test_inertia_that_changes_nothing_is_not_taken_for_friction_alone():
+    """It would cost a thousand times the load distribution that friction makes for itself."""
+    balls = {"balls": 60, "ball_diameter": 0.06, "pitch_diameter": 1.5, "groove_radius": 0.0312}
+    scene = make_scene(
+        {
+            "name": "balls",
+            "results": ["rolling.friction"],
+            "loads": {"dlc": "1.1", "wind_speeds": [12.0], "seeds": 1},
+            "bearings": {"N": {"kind": "ball", "geometry": balls}},
+        }
+    )
+    assert not make_plan(scene).scene.rolling.inertia
+    spun = scene.model_copy(update={"rolling": scene.rolling.model_copy(update={"inertia": True})})
+    seconds = [expected_seconds(one, "friction", list_cases(one)) for one in (scene, spun)]
+    assert seconds[1] > 10 * seconds[0]
 
 
 def test_elastic_rings_are_switched_on_in_every_bearing_that_has_sections(cube):

@@ -28,6 +28,7 @@ from benchmarks.ladder.measuring import (
     with_ratios,
 )
 from benchmarks.ladder.thrust import cone_gains, thrust_gains
+from loadflow.planning.asked import ABSOLUTE
 from loadflow.scene.cases import Case
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
@@ -345,7 +346,7 @@ def _ring_errors(bench: Bench, rings: Any, reference: Any, samples: int) -> dict
         speed = parts["loads"]["speed"].values[some].astype(float)
         lost, least = (_ideal_losses(answer, speed) for answer in (ours, best))
         for quantity, value in lost.items():
-            scale = 1.0 if quantity == "slip" else None
+            scale = 1.0 if quantity in ABSOLUTE else None
             errors.add(quantity, label(case), value, least[quantity], scale)
     return errors.summary()
 

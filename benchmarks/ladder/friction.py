@@ -22,6 +22,7 @@ from benchmarks.ladder.measuring import (
     sentence,
     with_ratios,
 )
+from loadflow.planning.asked import ABSOLUTE
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Rolling, Scene, read_scene
 from loadflow.stages import friction
@@ -115,16 +116,17 @@ def solve(scene: Scene, settings: dict[str, Any], case: Case, inputs: Inputs) ->
 
 
 def compare(errors: Errors, where: str, answer: xr.Dataset, reference: xr.Dataset) -> None:
-    """Add the deviations of one case; the slip's, a share itself, are absolute."""
+    """Add the deviations of one case; of shares such as slip they are absolute."""
     for name in reference["bearing"].values:
         ours, best = (data.sel(bearing=name).squeeze() for data in (answer, reference))
         place = f"{where}, {name}"
-        for quantity, key, scale in (
-            ("friction power", "mean_friction_power", None),
-            ("film parameter", "median_film_parameter", None),
-            ("slip", "mean_slip", 1.0),
-            ("slip power density", "largest_slip_power_density", None),
+        for quantity, key in (
+            ("friction power", "mean_friction_power"),
+            ("film parameter", "median_film_parameter"),
+            ("slip", "mean_slip"),
+            ("slip power density", "largest_slip_power_density"),
         ):
+            scale = 1.0 if quantity in ABSOLUTE else None
             errors.add(quantity, place, float(ours[key]), float(best[key]), scale)
 
 

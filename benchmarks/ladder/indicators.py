@@ -161,7 +161,9 @@ of one wind speed, an indicator at the hardest of all.
 
 The last column says between which factors the plan leaves the question open, and asks the pilot
 where it has one. An effect is out for certain if it would be small even by so much more, and kept
-for certain if it would be large even by so much less ([accuracy](accuracy.md#the-pilot)). 0: no
+for certain if it would be large even by so much less ([accuracy](accuracy.md#the-pilot)). Friction,
+film and slip of rolling bearings, their life with rings and their largest force with whole rollers
+move either way, and so may hardly move: of them the first factor alone binds. 0: no
 indicator is a bound there, as asperities carry the shaft. No plan leaves out the coherence of
 lateral turbulence. Written by `python -m benchmarks.ladder.indicators`."""
 

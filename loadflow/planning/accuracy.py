@@ -116,7 +116,7 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
     ideal rolling are off; shares of a load, and the tilt of the shaft, follow the load as it
     is, and κ the slowest speed; κ, friction, Λ and the modified life follow the oil, by the
     temperature that a scene without cooling assumes. Effects that are left out count where they
-    move the load, or the side flow itself.
+    move the load, the side flow itself, or friction, film and κ of rolling bearings.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
         kinds = {one.friction_model for one in scene.rolling.geometries.values()}
         few = _few_samples("balls" if kinds == {"balls"} else "rollers")
 
-        def warmer(quantity: str) -> float | None:
+        def left_out(quantity: str) -> float | None:
             return total(
                 Part("rolling", effect, None if isnan(size) else size)
                 for effect in effects_left_out(scene, "rolling")
@@ -158,14 +158,16 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
             )
 
         reached = {
-            name: _plus(of("rolling.friction", gain, *load_links("bearing load max")), warmer(gain))
+            name: _plus(
+                of("rolling.friction", gain, *load_links("bearing load max")), left_out(gain)
+            )
             for name, gain in _FEW.items()
         } | {"row share": whole}
         speed = of("rolling.friction", "slowest speed", *_SPEED)
         reached["viscosity ratio"] = None if speed is None else SLOW_POWER * speed
-        reached["viscosity ratio"] = _plus(reached["viscosity ratio"], warmer("viscosity ratio"))
+        reached["viscosity ratio"] = _plus(reached["viscosity ratio"], left_out("viscosity ratio"))
         life = giving("rolling.life").results["rolling.life"](scene)["life"]
-        aged = _plus(of("rolling.life", "life", *life), warmer("modified life"))
+        aged = _plus(of("rolling.life", "life", *life), left_out("modified life"))
         found["rolling.life"] = {"modified life": aged}
         found["rolling.friction"] = {
             name: _plus(share, few.get(name)) for name, share in reached.items()

@@ -7,6 +7,7 @@ a rung is called, the stages say themselves.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -15,7 +16,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.registry import EFFECTS, effects_of
 from loadflow.stages.registry import STAGES, models
-from loadflow.stages.stage import STEPS_PER_CASE, Rungs, Stage
+from loadflow.stages.stage import STEPS_PER_CASE, Measured, Rungs, Stage
 
 __all__ = ["STEPS_PER_CASE", "expected_seconds", "gains", "ladder", "measured"]
 
@@ -51,7 +52,7 @@ def expected_seconds(scene: Scene, stage: str, cases: Iterable[Case]) -> float |
     if one is None or known is None:
         return None
     cases = tuple(cases)
-    work, more = one.work(scene, cases, measured), one.more_seconds(scene, measured)
+    work, more = one.work(scene, cases, measured), one.more_seconds(scene, _with_effects(one))
     if work is None or more is None:
         return None
     each = known["seconds_per_case"] + more if "seconds_per_case" in known else _per_sample(known)
@@ -65,14 +66,35 @@ def _per_sample(known: dict[str, Any]) -> float:
 def cost_of_effects(scene: Scene, stage: Stage) -> float:
     """Time of a stage over that without the effects whose cost its rungs do not tell.
 
-    Those of a model that is another stage's own cost their time there.
+    Those of a model that is another stage's own are in its `Stage.more_seconds`.
     """
-    others = {one.models[-1].name for one in STAGES.values() if one.models and one is not stage}
-    factor, models = 1.0, {rungs.name for rungs in stage.models} - others
-    for effect in effects_of(stage, scene):
-        if effect.model in models and effect.is_on(scene):
-            factor *= effect.cost(scene)
-    return factor
+    return _cost(scene, stage, {rungs.name for rungs in stage.models} - _others(stage))
+
+
+def _others(stage: Stage) -> set[str]:
+    """Models that are another stage's own: the last of each."""
+    return {one.models[-1].name for one in STAGES.values() if one.models and one is not stage}
+
+
+def _cost(scene: Scene, stage: Stage, models: set[str]) -> float:
+    on = [one for one in effects_of(stage, scene) if one.model in models and one.is_on(scene)]
+    return math.prod(one.cost(scene) for one in on)
+
+
+def _with_effects(stage: Stage) -> Measured:
+    """`measured`, which of a model that is another stage's own tells the time with its effects.
+
+    That is so of the rung that a scene has; a rung that is named has none.
+    """
+
+    def found(scene: Scene, model: str, key: str | None = None) -> dict[str, Any] | None:
+        known = measured(scene, model, key)
+        if known is None or key is not None or model not in _others(stage):
+            return known
+        factor = _cost(scene, stage, {model})
+        return known | {"seconds_per_sample": factor * _per_sample(known)}
+
+    return found
 
 
 def choices(scene: Scene, rungs: Rungs) -> list[Scene]:

@@ -310,8 +310,8 @@ def _is_needed(scene: Scene, chosen: Scene, known: Estimates, effect: Effect) ->
     return any(
         part.effect is effect and (part.share or 0.0) > effect.smaller * scene.allowed(result)
         for result in scene.results
-        for name, of in giving(result).results[result](without).items()
-        for part in contributions(without, result, name, of, known)
+        for name, links in giving(result).results[result](without).items()
+        for part in contributions(without, result, name, links, known)
         if name not in effect.either_way
     )
 

@@ -283,14 +283,12 @@ def _links(scene: Scene) -> Links:
 
 
 def _more_seconds(scene: Scene, measured: Measured) -> float | None:
-    """Seconds of elastic rings of a load case beyond those of rigid ones, which friction has."""
-    flexible, rigid = (
-        measured(scene, EQUILIBRIUM.name, rings) for rings in (scene.rolling.rung, "rigid")
-    )
-    if flexible is None or rigid is None:
+    """Seconds of the load distribution of a load case beyond that which friction was timed with."""
+    own, rigid = measured(scene, EQUILIBRIUM.name), measured(scene, EQUILIBRIUM.name, "rigid")
+    if own is None or rigid is None:
         return None
     steps = STEPS_PER_CASE * min(1.0, scene.loads.step / scene.friction.step)
-    more = flexible["seconds_per_sample"] - rigid["seconds_per_sample"]
+    more = own["seconds_per_sample"] - rigid["seconds_per_sample"]
     return float(steps * len(scene.rolling.bearings) * more)
 
 

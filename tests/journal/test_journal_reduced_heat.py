@@ -336,7 +336,7 @@ def test_a_settled_stiffness_at_a_place_is_that_of_the_shaft_at_rest_there(more,
 
 @pytest.mark.parametrize(
     ("rung", "module"),
-    [("reduced", "models.strip_film"), ("grid", "solvers.warm_rows")],
+    [("reduced", "models.composed.strip_film"), ("grid", "solvers.warm_rows")],
 )
 def test_a_settled_stiffness_of_which_one_film_has_no_temperatures_is_none(
     rung, module, monkeypatch

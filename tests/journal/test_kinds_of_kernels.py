@@ -32,10 +32,12 @@ def written_out(node, module):
 def test_no_function_is_compiled_again_for_a_number_that_is_written_out():
     """numba compiles a kind for each; of the balance of grooves it took four seconds a film."""
     functions, given = set(), defaultdict(set)
-    for file in sorted(Path(models.__file__).parent.glob("*.py")):
+    room = Path(models.__file__).parent
+    for file in sorted(room.rglob("*.py")):
         if not (file.name.startswith("_") or file.stem == "slow_heat") or file.stem == "__init__":
             continue
-        module = importlib.import_module(f"{models.__name__}.{file.stem}")
+        within = ".".join(file.relative_to(room).with_suffix("").parts)
+        module = importlib.import_module(f"{models.__name__}.{within}")
         for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
             if isinstance(node, ast.FunctionDef):
                 made = {

@@ -1,1 +1,1 @@
-"""Speeds, slip and inertia of rolling elements and cages."""
+"""Slip and inertia of rolling elements and cages, over time."""

@@ -30,17 +30,18 @@ def _changes(part: FurtherBearing, load: BearingLoad) -> Sizes:
     life = sliced.damage(of_slices) / whole.damage(of_rollers)
     ratios = force[hard:], pressure[hard:], life  # largest ones are those of the largest load
     sizes = {name: float(np.abs(ratio - 1.0).max()) for name, ratio in zip(CONTACTS, ratios)}
-    return sizes | (TAPERED_LOSSES if bearing.rib_guided else LOSSES)
+    return sizes | (TAPERED_LOSSES if bearing.rib_guided else OTHER_LOSSES)
 
 
 TAPERED_LOSSES = {"friction power": 0.6, "film parameter": 0.25, "slip": 0.37}
-LOSSES = {"friction power": 0.08, "film parameter": 0.015, "slip": 0.07}
-"""What whole rollers change of friction, of pairs of tapered rows that are preloaded and of others:
-the most in 57 machines and wind speeds (docs/physics.md). Without the drop of their profile all
-rollers of preloaded rows stay pressed, roll along and hardly slip."""
+OTHER_LOSSES = {"friction power": 0.08, "film parameter": 0.015, "slip": 0.07}
+"""What whole rollers change of friction, of pairs of tapered rows that are preloaded and of others.
+The first is more than the most between elastic rings, 22, 8 and 28 % in 57 machines and wind speeds
+(docs/physics.md): between rigid rings the quick look has 34 % of the power. Without the drop of
+their profile all rollers of preloaded rows stay pressed, roll along and hardly slip."""
 
 CONTACTS = ("maximum force", "maximum pressure", "life")
-QUANTITIES = (*CONTACTS, *LOSSES)
+QUANTITIES = (*CONTACTS, *OTHER_LOSSES)
 
 
 def _sliced(at: Situation) -> Sizes:
@@ -85,8 +86,10 @@ SLICED = Effect(
     switched=_with_sliced_rollers,
     indicator=_sliced,
     smaller=15.0,  # 10 of the life of a bearing whose load hardly exceeds its preload
-    either_way=("maximum force", *LOSSES),
-    larger=lambda scene: 7.0,  # 5.5 of the life of a preloaded pair in light wind, see its table
+    either_way=("maximum force", *OTHER_LOSSES),
+    larger=lambda scene: (
+        7.0
+    ),  # 6.5 of the largest force, 5.5 of the life of a preloaded pair in light wind
     out='rolling.roller_model = "whole": each roller is one contact',
     needs='rolling.roller_model = "sliced"',
     concerns=lambda scene: any(map(_has_rollers, scene.rolling.bearings.values())),
