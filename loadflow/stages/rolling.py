@@ -396,6 +396,7 @@ EQUILIBRIUM = Rungs(
     "rolling",
     section="rolling",
     key=rings_key,
+    text=lambda scene: f"{rings_key(scene)} rings",
     error_key=lambda scene: "flexible",  # rigid rings leave out an effect
 )
 """Load distribution of rolling bearings, which their friction follows, too."""
