@@ -443,9 +443,7 @@ def _all_on(
 
 def _alone(scene: Scene, effect: Effect, others: list[Effect]) -> Scene | None:
     """The scene with an effect on, and one of the others out that it does not go with."""
-    for other in others:
-        room = switched(scene, other, False) if other is not effect and other.is_on(scene) else None
-        found = switched(room, effect, True) if room is not None else None
-        if found is not None:
-            return found
-    return None
+    some = (other for other in others if other is not effect and other.is_on(scene))
+    rooms = (switched(scene, other, False) for other in some)
+    found = (switched(room, effect, True) for room in rooms if room is not None)
+    return next((one for one in found if one is not None), None)
