@@ -32,8 +32,11 @@ from loadflow.stages.effects import registry as effects
 from loadflow.stages.effects.effect import Effect
 from loadflow.stages.effects.film_costs import COSTS
 from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.effects.roller_profile import SLICED_COSTS
+from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.effects.situation import situation
 from loadflow.stages.probes import PROBES, Probe
+from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import Rungs, Stage, always, with_settings
 
 
@@ -456,6 +459,22 @@ def test_inertia_that_changes_nothing_is_not_taken_for_friction_alone():
     spun = scene.model_copy(update={"rolling": scene.rolling.model_copy(update={"inertia": True})})
     seconds = [expected_seconds(one, "friction", list_cases(one)) for one in (scene, spun)]
     assert seconds[1] > 10 * seconds[0]
+
+
+def test_friction_is_timed_with_rigid_rings_and_rollers_in_slices():
+    scene = make_scene(
+        {"name": "rollers", "results": ["rolling.friction"], "bearings": ["tapered-pair"]}
+    )
+    known = {"flexible": 3e-4, "rigid": 2e-5}
+
+    def measured(scene, model, key=None):
+        own = SLICED_COSTS[scene.rolling.rung] * known[scene.rolling.rung]
+        return {"seconds_per_sample": own if key is None else known[key]}
+
+    bent = switched(scene, RINGS, True)
+    rigid, flexible = (STAGES["friction"].more_seconds(one, measured) for one in (scene, bent))
+    assert rigid == pytest.approx(0.0, abs=1e-12)
+    assert flexible > 0.0
 
 
 def test_elastic_rings_are_switched_on_in_every_bearing_that_has_sections(cube):

@@ -116,7 +116,7 @@ def errors_beside(scene: Scene, known: Estimates) -> Errors:
     ideal rolling are off; shares of a load, and the tilt of the shaft, follow the load as it
     is, and κ the slowest speed; κ, friction, Λ and the modified life follow the oil, by the
     temperature that a scene without cooling assumes. Effects that are left out count where they
-    move the load, the side flow itself, or friction, film and κ of rolling bearings.
+    move the load, or friction, film, κ and modified life of rolling bearings.
 
     Parameters
     ----------

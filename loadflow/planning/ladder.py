@@ -84,7 +84,7 @@ def _cost(scene: Scene, stage: Stage, models: set[str]) -> float:
 def _with_effects(stage: Stage) -> Measured:
     """`measured`, which of a model that is another stage's own tells the time with its effects.
 
-    That is so of the rung that a scene has; a rung that is named has none.
+    That is so of the rung that a scene has; one that is named is told without effects.
     """
 
     def found(scene: Scene, model: str, key: str | None = None) -> dict[str, Any] | None:

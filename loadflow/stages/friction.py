@@ -15,6 +15,7 @@ from loadflow.rolling.friction import torques_beside
 from loadflow.scene.bearings import FurtherBearing
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene
+from loadflow.stages.effects.roller_profile import SLICED_COSTS
 from loadflow.stages.labelling import label, labelled
 from loadflow.stages.rolling import EQUILIBRIUM
 from loadflow.stages.rolling_at_work import at_work, friction_options, rest
@@ -254,9 +255,13 @@ def _mean_beside(mean: xr.Dataset) -> dict[str, Any]:
     }
 
 
+def _has_rollers(scene: Scene) -> bool:
+    return any(one.friction_model == "rollers" for one in scene.rolling.geometries.values())
+
+
 def friction_key(scene: Scene) -> str:
     """Name of the friction in the ladder: rollers are followed one by one, balls roll ideally."""
-    if not any(b.friction_model == "rollers" for b in scene.rolling.geometries.values()):
+    if not _has_rollers(scene):
         return f"balls, every {scene.friction.step:g} s"
     every = scene.friction.follow_every
     some = f", 1 in {every} followed" if every > 1 else ""
@@ -283,12 +288,16 @@ def _links(scene: Scene) -> Links:
 
 
 def _more_seconds(scene: Scene, measured: Measured) -> float | None:
-    """Seconds of the load distribution of a load case beyond that which friction was timed with."""
+    """Seconds of the load distribution of a load case beyond that which friction was timed with.
+
+    That was with rigid rings, and with rollers in slices.
+    """
     own, rigid = measured(scene, EQUILIBRIUM.name), measured(scene, EQUILIBRIUM.name, "rigid")
     if own is None or rigid is None:
         return None
     steps = STEPS_PER_CASE * min(1.0, scene.loads.step / scene.friction.step)
-    more = own["seconds_per_sample"] - rigid["seconds_per_sample"]
+    timed = SLICED_COSTS["rigid"] if _has_rollers(scene) else 1.0
+    more = own["seconds_per_sample"] - timed * rigid["seconds_per_sample"]
     return float(steps * len(scene.rolling.bearings) * more)
 
 

@@ -91,7 +91,7 @@ def _worn(
     held = options
     if temperatures:
         held = options.at_temperature(float(np.mean(temperatures)))
-    with unresolved_counted():  # the films of the run have told of all this, and of their ends
+    with unresolved_counted():  # the run has told of these in the films that wear begins with
         warnings.filterwarnings("ignore", 'rung "reduced": the pressure at', ValidityWarning)
         return wear_bearing(options.geometry, cycles, held.film_model, scene.wear.model)
 

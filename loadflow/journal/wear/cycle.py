@@ -20,8 +20,8 @@ Array = NDArray[np.float64]
 
 _PARTS = (1, 2, 4, 8, 16)  # steps in motion from each sample of a cycle to the next
 _SETTLED = 0.01  # error of what a cycle rubs by its steps
-_SLIGHT = 1e-6  # of the load all along: what asperities rub under less of it wears nothing
-_BARELY = 4.0  # roughnesses between surfaces whose asperities carry about that
+_SLIGHT = 1e-6  # of the load all along: what asperities rub under less of it hardly wears
+_BARELY = 4.0  # roughnesses between surfaces whose asperities hardly carry
 _WIDE = 1.0  # m, wider than any film, of a shaft that never turns
 
 
@@ -167,7 +167,8 @@ def _path(
         wider, narrow = narrow, float(found["minimum_film"][turns].min(initial=_WIDE))
         settled = abs(rubbed - before) <= 3.0 * _SETTLED * max(rubbed, slight)  # of second order
         if rubbed <= slight:  # nor may the film come nearer between its steps than they tell
-            settled = settled and narrow - abs(narrow - wider) > barely
+            far = max(narrow - barely, 3.0 * _SETTLED * narrow)
+            settled = settled and abs(narrow - wider) <= far
         if settled:
             break
     else:

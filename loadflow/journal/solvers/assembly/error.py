@@ -13,8 +13,8 @@ from loadflow.journal.solvers.assembly.solve import Assembly
 
 Array = NDArray[np.float64]
 
-# of the sum of sizes of what films lack, at least: signs cancel where pads are alike, which leaves
-# a shaft between them where it is, but not all of it (docs/journal-numerics.md has the draws)
+# of the sum of sizes of what films lack, at least: pads that are alike lack load of one sign, which
+# leaves a shaft between them where it is, but they are never quite alike (docs/journal-numerics.md)
 _UNLIKE = 0.3
 
 
