@@ -118,7 +118,7 @@ def test_every_slewing_bearing_of_a_scene_may_have_flexible_rings(tmp_path):
                 "loads": {"source": "files", "files": [str(cube)]}, "rolling": [first, second],
             }
         )  # fmt: skip
-        assert models()["rolling"].text_of(scene) == ("flexible" if rings else "rigid")
+        assert models()["rolling"].text_of(scene) == f"{'flexible' if rings else 'rigid'} rings"
         table = lf.run(scene, out=tmp_path, report=False).tree["rolling"]
         largest[bool(rings)] = float(table["bearing_force"].sel(bearing="N2").max())
     assert largest[True] != pytest.approx(largest[False], rel=0.01)
