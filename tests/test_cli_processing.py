@@ -17,7 +17,7 @@ from loadflow.stages.film_past import past_of_speed
 from loadflow.stages.film_response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.studies.bearing_series import iter_bearings, with_bearings
-from loadflow.studies.design_loads.error import for_long_series, solve_films
+from loadflow.studies.design_loads.reduction_error import for_long_series, solve_films
 
 
 @pytest.fixture(scope="module")
@@ -324,7 +324,7 @@ def test_bad_input_gives_one_message_and_code_2(loadflow, hub_cube, tmp_path, ar
 def test_chunked_and_loaded_cubes_give_the_same_numbers(hub_cube):
     pytest.importorskip("dask")
     from loadflow.studies.lifetime.lifetimes import lifetimes
-    from loadflow.studies.seeds.equality import seed_verdicts
+    from loadflow.studies.seeds.verdicts import seed_verdicts
     from loadflow.studies.statistics import statistic_records
 
     forms = [open_cube(hub_cube, chunks={"time": 150}), open_cube(hub_cube).load()]

@@ -16,7 +16,7 @@ from loadflow.stages.registry import STAGES
 from loadflow.stages.rolling_at_work import friction_options
 from loadflow.stages.shaft import bearing_loads
 from loadflow.studies.lifetime.energy import run_energy
-from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.lifetime.finished_run import run_lifetime
 from loadflow.tribology import lubricant
 
 

@@ -14,8 +14,8 @@ from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.stages import wear
 from loadflow.studies.bearing_series import BearingSeries
+from loadflow.studies.lifetime.finished_run import case_shares, energy_per_year, run_lifetime
 from loadflow.studies.lifetime.lifetimes import LifetimeOptions, lifetimes
-from loadflow.studies.lifetime.of_run import case_shares, energy_per_year, run_lifetime
 from loadflow.studies.lifetime.page import exceedances, share_warnings
 from loadflow.wind import Machine, conditions
 

@@ -8,7 +8,7 @@ from loadflow.running.energy_page import energy_table
 from loadflow.scene.scene import make_scene
 from loadflow.stages import loads
 from loadflow.studies.lifetime.energy import run_energy
-from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.lifetime.finished_run import run_lifetime
 
 # V in m/s: supply, friction, loss kW, turbine MW, η %, Q l/min
 TABLE = {

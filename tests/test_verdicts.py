@@ -17,7 +17,7 @@ from loadflow.rolling import main_bearings
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
 from loadflow.studies.candidate.tilt import carries_thrust
-from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.lifetime.finished_run import run_lifetime
 from loadflow.studies.verdicts.rolling import RollingLimits, _static
 from loadflow.studies.verdicts.uncarried import located, uncarried
 from loadflow.studies.verdicts.verdicts import verdicts

@@ -34,8 +34,8 @@ from loadflow.studies.candidate.deviations import Built, tolerances_of
 from loadflow.studies.design.crowning import crowns_of
 from loadflow.studies.design.point import NUMBERS, DesignPoint
 from loadflow.studies.design.space import space_of
+from loadflow.studies.lifetime.finished_run import run_lifetime
 from loadflow.studies.lifetime.load_spectrum import load_spectrum
-from loadflow.studies.lifetime.of_run import run_lifetime
 from loadflow.studies.verdicts.verdicts import verdicts
 
 

@@ -26,6 +26,7 @@ from loadflow.planning.asked import ABSOLUTE
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Rolling, Scene, read_scene
 from loadflow.stages import friction
+from loadflow.stages.probes import FRICTION
 
 KINDS = ("balls", "rollers")
 INCLUDES = {
@@ -115,17 +116,16 @@ def solve(scene: Scene, settings: dict[str, Any], case: Case, inputs: Inputs) ->
     return friction.summary({case: friction.losses(stepped, case, inputs)})
 
 
+READ = FRICTION | {"slip power density": "largest_slip_power_density"}
+"""What the errors of friction are told of, and what its summary calls that."""
+
+
 def compare(errors: Errors, where: str, answer: xr.Dataset, reference: xr.Dataset) -> None:
     """Add the deviations of one case; of shares such as slip they are absolute."""
     for name in reference["bearing"].values:
         ours, best = (data.sel(bearing=name).squeeze() for data in (answer, reference))
         place = f"{where}, {name}"
-        for quantity, key in (
-            ("friction power", "mean_friction_power"),
-            ("film parameter", "median_film_parameter"),
-            ("slip", "mean_slip"),
-            ("slip power density", "largest_slip_power_density"),
-        ):
+        for quantity, key in READ.items():
             scale = 1.0 if quantity in ABSOLUTE else None
             errors.add(quantity, place, float(ours[key]), float(best[key]), scale)
 

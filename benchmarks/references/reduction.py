@@ -19,7 +19,7 @@ from loadflow.reduction import histogram
 from loadflow.scene.journal import Journal
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings
-from loadflow.studies.design_loads.error import (
+from loadflow.studies.design_loads.reduction_error import (
     HEADS,
     MEASURES,
     FilmError,

@@ -12,7 +12,7 @@ from pathlib import Path
 from benchmarks.common import ROOT, arguments
 from loadflow.running.folder import results_of
 from loadflow.scene import read_scene
-from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.lifetime.finished_run import known_shares
 from loadflow.studies.seeds.intervals import Groups
 from loadflow.studies.seeds.scatter import scatter_of_one_seed, table_of_cases
 

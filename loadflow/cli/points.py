@@ -25,7 +25,7 @@ def wind_conditions(
     as_json: AsJson = False,
 ) -> None:
     """Show the wind conditions of IEC 61400-1 at a wind speed."""
-    from loadflow.studies.one_bearing.journal import iec_conditions
+    from loadflow.studies.wind_conditions import iec_conditions
 
     print_quantities(
         iec_conditions(

@@ -94,14 +94,14 @@ def seeds(
     Then group the seeds of each wind speed: those of one group may be merged.
     """
     from loadflow.studies.bearing_series import bearing_cube
-    from loadflow.studies.seeds.equality import (
+    from loadflow.studies.seeds.page import write_seed_page
+    from loadflow.studies.seeds.verdicts import (
         HEADS,
         as_row,
         count_different,
         groupings,
         seed_verdicts,
     )
-    from loadflow.studies.seeds.page import write_seed_page
 
     if not output:
         refuse("only the page tells it; give -o", "margin", "uncertainty")
@@ -236,7 +236,7 @@ def _histogram(
     options: dict[str, Any],
     as_json: bool,
 ) -> None:
-    from loadflow.studies.design_loads.series import (
+    from loadflow.studies.design_loads.reduced_series import (
         FILM_HEADS,
         HEADS,
         as_row,

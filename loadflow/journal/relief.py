@@ -15,6 +15,7 @@ from annotated_types import Ge, Gt, Le
 from numpy.typing import NDArray
 
 from loadflow.numerics.fields import require
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 _TURN = 2 * np.pi
@@ -219,11 +220,11 @@ class Contour:
         if angles[-1] < angles[0] + _TURN:
             angles = np.append(angles, angles[0] + _TURN)
             table = np.concatenate([table, table[:1]])
-        around = np.array([np.interp(turned, angles, column) for column in table.T])
+        around = on_lines(turned, angles, table)
         share = np.interp(z, places, np.arange(places.size))
         low = np.minimum(share.astype(int), places.size - 1)
         high = np.minimum(low + 1, places.size - 1)
-        return (1 - share + low) * around[low].T + (share - low) * around[high].T
+        return (1 - share + low) * around[..., low] + (share - low) * around[..., high]
 
     def steps(self, width: float) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Angles (rad) and axial places (m) at which the gap steps: none."""

@@ -17,7 +17,7 @@ from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.stages.registry import giving
 from loadflow.stages.statistics import SLOPE
-from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.lifetime.finished_run import known_shares
 from loadflow.studies.seeds.intervals import Groups, Picks, bounds, drawn
 from loadflow.studies.seeds.scatter import return_level
 from loadflow.studies.tolerances import Band, band_of

@@ -19,7 +19,7 @@ from loadflow.data import seed_scatter
 from loadflow.planning.plan import Plan
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
-from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.lifetime.finished_run import known_shares
 from loadflow.studies.seeds.intervals import Groups
 from loadflow.studies.seeds.scatter import ANSWERS, scatter_of_one_seed, table_of_cases
 from loadflow.wind.cases import row_of

@@ -16,8 +16,8 @@ from loadflow.report.run_charts import duration_chart, exceedance_chart
 from loadflow.running.folder import ForceOf, answered
 from loadflow.scene.scene import Scene
 from loadflow.studies.bearing_series import BearingSeries
+from loadflow.studies.lifetime.finished_run import case_shares
 from loadflow.studies.lifetime.lifetimes import BearingLifetime, LifetimeOptions, lifetimes
-from loadflow.studies.lifetime.of_run import case_shares
 from loadflow.studies.lifetime.page import (
     case_table,
     duration_of,

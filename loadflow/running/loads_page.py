@@ -18,7 +18,7 @@ from loadflow.running.folder import answered, read_part
 from loadflow.stages.loads import doubts, trips, when_tripped
 from loadflow.stages.statistics import SLOPE
 from loadflow.studies.lifetime.extreme_loads import safety_factor
-from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.lifetime.finished_run import known_shares
 
 _LOAD_ROWS = (
     ("speed", "speed", ""),

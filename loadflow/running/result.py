@@ -119,7 +119,7 @@ def _judged(
 ) -> dict[str, xr.Dataset]:
     """Lifetime and verdicts of what was found; nothing where no bearing was solved."""
     from loadflow.studies.lifetime.energy import run_energy
-    from loadflow.studies.lifetime.of_run import run_lifetime
+    from loadflow.studies.lifetime.finished_run import run_lifetime
     from loadflow.studies.verdicts.verdicts import verdicts
 
     lifetime = run_lifetime(scene, groups)

@@ -24,3 +24,16 @@ def labelled(found: Mapping[str, tuple[xr.DataArray, str, str]]) -> xr.Dataset:
     return xr.Dataset(
         {name: value.assign_attrs(label(*about)) for name, (value, *about) in found.items()}
     )
+
+
+def quantities(rows: Mapping[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
+    """Label values of any shape: name → value, units, meaning."""
+    variables = {
+        name: (
+            [f"{name}_{axis}" for axis in range(np.ndim(value))],
+            np.asarray(value),
+            label(units, meaning),
+        )
+        for name, (value, units, meaning) in rows.items()
+    }
+    return xr.Dataset(variables, attrs=attrs)

@@ -22,6 +22,7 @@ from loadflow.journal.heat import Heat
 from loadflow.journal.models.composed.shared_path import SharedPath, follow_shared
 from loadflow.journal.models.composed.shared_sides import Lying, Seats
 from loadflow.numerics.convergence import Convergence
+from loadflow.numerics.lines import on_lines
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.shaft_place import move_together
@@ -80,8 +81,7 @@ def shaft_on_films(scene: Scene, concept: Concept, loads: xr.Dataset, tilt: floa
 
     def onto(values: Floats) -> Floats:
         """(4, n) in the cube of (m, 2, 2) in the film."""
-        columns = from_film(values)[..., 1:].reshape(known.size, 4).T
-        return np.stack([np.interp(time, known, column) for column in columns])
+        return on_lines(time, known, from_film(values)[..., 1:].reshape(known.size, 4)).T
 
     found = np.ones(time.size, dtype=bool)
     residual, iterations = (

@@ -16,6 +16,7 @@ from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.wear.cycle import Cycle
 from loadflow.journal.wear.lifetime import TOUCHING, wear_bearing
 from loadflow.journal.wear.worn_bearing import WornBearing
+from loadflow.numerics.lines import on_lines
 from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime_shares import seconds_per_year, shares_in
@@ -185,14 +186,14 @@ def _lying(
     time, speed = (loads[key].values.astype(float) for key in ("time", "speed"))
     line = {key: to_film(values) for key, values in shaft_line(options, shaft).items()}
     force = to_film(shaft["force"].transpose("time", "axis").values.astype(float))
-    lying = {key: _between(when, time, values) for key, values in line.items()}
+    lying = {key: on_lines(when, time, values) for key, values in line.items()}
     if not options.tilt and "tilt" in film:  # a shell on a seat, which leaves that of the shaft
-        lying["tilt"] = _between(when, film["time"].values, film["tilt"].values.astype(float))
+        lying["tilt"] = on_lines(when, film["time"].values, film["tilt"].values.astype(float))
         bent = to_film(shaft["curvature"].transpose("time", "axis").values.astype(float))
-        lying["bend"] = _between(when, time, bent)
+        lying["bend"] = on_lines(when, time, bent)
     return Cycle(
         when,
-        _between(when, time, force),
+        on_lines(when, time, force),
         np.interp(when, time, speed),
         in_motion=options.in_motion,
         tilt=lying.get("tilt"),
@@ -208,11 +209,6 @@ def counts_of(scene: Scene, dlcs: Iterable[str]) -> dict[str, float]:
     told = {dlc: scene.lifetime.years * number for dlc, number in yearly.items()}
     told |= by_load_case(scene.wear.counts, there)
     return {dlc: told.get(dlc, scene.wear.events) for dlc in filter(stands_or_starts, there)}
-
-
-def _between(when: np.ndarray, time: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """Straight lines through `values` (n, 2)."""
-    return np.stack([np.interp(when, time, column) for column in values.T], axis=-1)
 
 
 def _told(found: WornBearing | None, cycles: list[tuple[Case, Cycle]]) -> xr.Dataset:

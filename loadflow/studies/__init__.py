@@ -2,7 +2,8 @@
 
 ===============  =========================================================================
 `statistics`     of every case; `channels`: its single series; `accessor`: ``cube.lf``
-`bearing_series` loads of the bearings of a cube; `simulated_cube`: a cube without a run
+`bearing_series` loads of the bearings of a cube; `simulated_cube`: a cube without a run;
+                 `wind_conditions`: those of IEC 61400-1
 `shaft_through`  the shaft of a suspension; `tolerances`: bands by tolerances of values
 `seeds`          which are equal, which belong together, whether they are enough
 `lifetime`       fatigue, revolutions, extremes and energy of a lifetime

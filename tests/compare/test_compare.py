@@ -47,7 +47,7 @@ from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
-from loadflow.studies.candidate import risks as compare_risks
+from loadflow.studies.candidate import risks as candidate_risks
 from loadflow.studies.candidate.friction import TORQUES, error_together, rolling_losses
 from loadflow.studies.candidate.margins import damage_per_hour, margin_of
 from loadflow.studies.candidate.numbers import Finished, extreme, of_one_seed, without_shares
@@ -72,7 +72,7 @@ from loadflow.studies.candidate.seeds import of_life
 from loadflow.studies.candidate.supply import leaving, supply_power
 from loadflow.studies.compare.comparison import _oil, in_wide_bore, judged
 from loadflow.studies.compare.words import conclusion, drawn, facts, reservations
-from loadflow.studies.lifetime.of_run import NO_SHARE
+from loadflow.studies.lifetime.finished_run import NO_SHARE
 from loadflow.studies.seeds.intervals import Groups, interval, joint_life
 from loadflow.studies.verdicts.verdicts import AT_NO_RATIO
 from loadflow.verdict import Verdict
@@ -821,15 +821,15 @@ def lightest(monkeypatch, share, **parts):
         ("M", case, xr.Dataset({name: ("sample", values) for name, values in own.items()}))
         for case, own in lines.items()
     ]
-    monkeypatch.setattr(compare_risks, "_samples", lambda *_: found)
+    monkeypatch.setattr(candidate_risks, "_samples", lambda *_: found)
     monkeypatch.setattr(
-        compare_risks,
+        candidate_risks,
         "_equilibrium",
         lambda *args: SimpleNamespace(equivalent_load=args[-1]["load"].values * rated),
     )
     same = {"dlc": ("case", ["1.1"] * len(parts)), "wind_speed": ("case", [4.0] * len(parts))}
     cases = xr.Dataset(coords={"case": [*parts], **same})
-    return compare_risks._lightest(scene, Path(), cases, np.array(share), Groups.of(cases))
+    return candidate_risks._lightest(scene, Path(), cases, np.array(share), Groups.of(cases))
 
 
 def test_seeds_drawn_anew_may_be_those_whose_shaft_stands_alone(monkeypatch):
@@ -867,7 +867,7 @@ def test_samples_that_are_solved_as_they_are_extreme_stand_for_no_time(tmp_path)
     )
     (tmp_path / "reduction").mkdir()
     part.to_netcdf(tmp_path / "reduction" / "a.h5", group="M", engine="h5netcdf")
-    [(_, _, some)] = compare_risks._samples(scene, tmp_path, ["a"])
+    [(_, _, some)] = candidate_risks._samples(scene, tmp_path, ["a"])
     assert some["weight"].values[some["time"].values == least / 10].tolist() == [0.0]
     assert (some["weight"].values > 0).sum() == 48
     assert some["weight"].sum() == 4 * count

@@ -16,9 +16,9 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.thrust import Thrust
 from loadflow.stages.bores import against_bore
 from loadflow.stages.thrust import solved
-from loadflow.studies.candidate import factor as compare_factor
-from loadflow.studies.candidate import margins as compare_margins
-from loadflow.studies.candidate import pads as compare_pads
+from loadflow.studies.candidate import factor as candidate_factor
+from loadflow.studies.candidate import margins as candidate_margins
+from loadflow.studies.candidate import pads as candidate_pads
 from loadflow.studies.candidate.deviations import Built, _tilted, tolerances_of
 from loadflow.studies.candidate.factor import (
     WIDEST,
@@ -186,7 +186,7 @@ def test_a_factor_takes_few_solutions_however_its_pressure_bends(pressure, reser
 
 
 def test_a_factor_that_is_not_found_is_an_error(monkeypatch):
-    monkeypatch.setattr(compare_factor, "_STEPS", 1)
+    monkeypatch.setattr(candidate_factor, "_STEPS", 1)
     with pytest.raises(SolverError, match="no factor"):
         pressure_factor(lambda load, oil: math.exp(load - 1.0), 5.0)
 
@@ -197,8 +197,8 @@ def margins_of_lost_films(monkeypatch, films):
     columns = {"in_contact": 0.0, "smallest_film": 3e-5, "largest_pressure": 2e6}
     columns |= {"smallest_film_time": 1.0, "largest_pressure_time": 1.0}
     table = xr.Dataset({name: ("case", [x]) for name, x in columns.items()}, {"case": ["gust"]})
-    monkeypatch.setattr(compare_pads, "series_of", lambda *about: series())
-    monkeypatch.setattr(compare_pads, "pad_films", films)
+    monkeypatch.setattr(candidate_pads, "series_of", lambda *about: series())
+    monkeypatch.setattr(candidate_pads, "pad_films", films)
     return [*pad_margins(scene, None, "N2", table)]
 
 
@@ -226,7 +226,7 @@ def test_a_limit_without_an_answer_is_told_beside_the_smallest_of_the_others(mon
     tables = {"thrust": table}
     scene = SimpleNamespace(thrust=collar())
     for found, factor in (([missing, known], 1.4), ([missing], math.nan)):
-        monkeypatch.setattr(compare_margins, "pad_margins", lambda *about, one=found: one)
+        monkeypatch.setattr(candidate_margins, "pad_margins", lambda *about, one=found: one)
         margin = margin_of(scene, None, tables, [])
         assert margin.factor == pytest.approx(factor, nan_ok=True)
         assert margin.uncounted == missing.uncounted

@@ -23,7 +23,7 @@ from loadflow.journal import (
     Supply,
     ThickShell,
 )
-from loadflow.journal.models.composed import at_rest as composed
+from loadflow.journal.models.composed import at_rest as composed_at_rest
 from loadflow.tribology import AsperityContact
 
 SIZE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}
@@ -85,7 +85,7 @@ def test_an_edge_that_nearly_rubs_takes_more_points_beside_grooves():
     assert float(few.minimum_film) == pytest.approx(float(fine.minimum_film), rel=0.03)
     assert float(few.friction_power) == pytest.approx(float(fine.friction_power), rel=0.01)
     with (
-        patch.object(composed, "levels_at_rest", lambda film: range(1)),
+        patch.object(composed_at_rest, "levels_at_rest", lambda film: range(1)),
         pytest.warns(ValidityWarning, match="bearing end is not resolved"),
     ):
         less = BEARING.equilibrium(force, 5.0, replace(REDUCED, **words), **line)

@@ -12,7 +12,7 @@ from loadflow.cube import make_cube, save_cube
 from loadflow.errors import InputError
 from loadflow.reduction import number_of_classes, read_parameter_file
 from loadflow.studies.bearing_series import iter_bearings
-from loadflow.studies.design_loads.series import reduce_cube
+from loadflow.studies.design_loads.reduced_series import reduce_cube
 from loadflow.studies.design_loads.whole_cube import common_edges
 
 CUBE = make_cube([case(wind, 1, steps=300) for wind in (8.0, 9.0, 11.0)])

@@ -24,7 +24,7 @@ from loadflow.running import report_page as report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import rolling as stage
-from loadflow.studies.lifetime.of_run import run_lifetime
+from loadflow.studies.lifetime.finished_run import run_lifetime
 from loadflow.studies.verdicts.verdicts import verdicts
 from loadflow.tribology import lubricant
 

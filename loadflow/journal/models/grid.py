@@ -36,6 +36,7 @@ from loadflow.journal.solvers.transient import (
 from loadflow.journal.solvers.warm_mean import mean_heat, with_temperatures
 from loadflow.journal.solvers.warm_rows import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
+from loadflow.numerics.lines import on_lines
 from loadflow.numerics.one_thread import on_one_thread
 
 if TYPE_CHECKING:
@@ -175,12 +176,8 @@ def hold_on_grid(asked: AtPosition, index: int, answer: dict[str, Any], z: Array
         found, places = pressure(_alone(asked, index))
     state = {name: values[0] for name, values in found.items()}
     for name in ("pressure", "fill", "deformation", "gap"):
-        rows = np.array([np.interp(z, places, values) for values in state[name]])
-        around = [
-            np.interp(answer["angle"][index], state["angle"], values, period=2.0 * np.pi)
-            for values in rows.T
-        ]
-        state[name] = np.transpose(around)
+        across = on_lines(z, places, state[name].T).T
+        state[name] = on_lines(answer["angle"][index], state["angle"], across, period=2.0 * np.pi)
     _take(answer, index, state | {"angle": answer["angle"][index]})
 
 

@@ -29,7 +29,7 @@ from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models import grid
 from loadflow.journal.models import reduced_film as at
 from loadflow.journal.models._reduced_loops import finish, march, newton
-from loadflow.journal.models.composed import at_rest as composed
+from loadflow.journal.models.composed import at_rest as composed_at_rest
 from loadflow.journal.models.composed import closed_path as composed_closed
 from loadflow.journal.models.composed import heat as composed_heat
 from loadflow.journal.models.composed import heat_position as composed_heat_position
@@ -81,8 +81,8 @@ def equilibrium(asked: AtRest) -> dict[str, Any]:
     asked = replace(asked, force=force, speed=speed)
     if options.heat is not None:
         return composed_heat.equilibrium(asked)
-    if composed.composes(bearing, options, asked.line):
-        answer, found, none = composed.equilibrium(asked)
+    if composed_at_rest.composes(bearing, options, asked.line):
+        answer, found, none = composed_at_rest.equilibrium(asked)
         answer["converged"] = found
         if not control.strict:  # else the grid says why
             answer, found = answered_rows(found | ~none, answer), found | none
@@ -162,7 +162,7 @@ def pressure(asked: AtPosition) -> tuple[dict[str, Any], Array]:
         return grid.pressure(asked)
     if asked.film.heat is not None:
         return composed_heat_position.pressure(asked)
-    across = None if composed.composes(asked.bearing, asked.film, asked.line) else POINTS
+    across = None if composed_at_rest.composes(asked.bearing, asked.film, asked.line) else POINTS
     answer, z = composed_position.pressure(asked, across)
     for n in np.flatnonzero(~answer["converged"]):
         grid.hold_on_grid(asked, int(n), answer, z)
@@ -228,7 +228,7 @@ def _path(asked: InMotion) -> xr.Dataset:
             check_half_speed_whirl(time, force, speed)
         values, about = composed_closed.orbit(driven, begin, viscosity, warm)
         return told(values).assign_attrs(about)
-    effects = over_area is not None or composed.composes(bearing, bare, line)
+    effects = over_area is not None or composed_at_rest.composes(bearing, bare, line)
     if effects or Bore.of(bearing).pads:
         return told(composed_path.orbit(driven, begin, viscosity, warm))
     return told(_aligned_path(asked))

@@ -24,6 +24,7 @@ from loadflow.journal.solvers.orbit_error import Extremes
 from loadflow.journal.solvers.transient import Marcher, march, orbit_row
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level
+from loadflow.numerics.lines import on_lines
 from loadflow.tribology.film import effective_speed
 
 Array = NDArray[np.float64]
@@ -195,7 +196,7 @@ def _bends(time: Array, lines: Array | None) -> Callable[[float], Array] | None:
 
     def bend(at: float) -> Array:
         turn = time[0] + (at - time[0]) % (time[-1] - time[0])
-        return np.array([np.interp(turn, time, column) for column in lines[:, 2:].T])
+        return on_lines(turn, time, lines[:, 2:])
 
     return bend
 

@@ -15,6 +15,7 @@ from loadflow.journal.solvers.newton import Solution, no_film
 from loadflow.journal.solvers.search import Search, goes_on
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.fields import require
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 
@@ -106,7 +107,6 @@ def _cells_of(shown: Statics, own: Statics, solution: Solution) -> dict[str, Any
     ends = np.full(mesh.shape[0], own.film.unknown_of(np.array(own.film.p_edge)))
     lines = np.column_stack([solution.u, ends])
     angles, old = film.mesh.angles(place), mesh.angles(place)
-    around = [np.interp(angles, old, values, period=2.0 * np.pi) for values in lines.T]
-    z = np.append(mesh.z, mesh.z_edges[-1])
-    u = np.array([np.interp(film.mesh.z, z, values) for values in np.transpose(around)])
-    return field_cells(film, shown.gap, u, place)
+    around = on_lines(angles, old, lines, period=2.0 * np.pi)
+    u = on_lines(film.mesh.z, np.append(mesh.z, mesh.z_edges[-1]), around.T)
+    return field_cells(film, shown.gap, np.ascontiguousarray(u.T), place)

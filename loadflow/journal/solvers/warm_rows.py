@@ -29,6 +29,7 @@ from loadflow.journal.solvers.warm import (
 )
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 
@@ -187,12 +188,8 @@ def _settled(
 def _at_angles(row: dict[str, Any], angle: Array) -> dict[str, Any]:
     """The row of a film on more cells, its fields at the angles (nx,) of those asked for."""
     own = row["angle"]
-
-    def moved(field: Array) -> Array:
-        columns = [np.interp(angle, own, values, period=2.0 * np.pi) for values in field.T]
-        return np.stack(columns, axis=1)
-
-    return row | {name: moved(row[name]) for name in OVER_AREA} | {"angle": angle}
+    moved = {name: on_lines(angle, own, row[name], period=2.0 * np.pi) for name in OVER_AREA}
+    return row | moved | {"angle": angle}
 
 
 def in_grown_clearances(

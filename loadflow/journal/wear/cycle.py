@@ -15,6 +15,7 @@ from loadflow.journal.bearing import JournalBearing
 from loadflow.journal.film_model import Film
 from loadflow.numerics.convergence import Control
 from loadflow.numerics.fields import require
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 
@@ -99,9 +100,10 @@ class Cycle:
 
     def divided(self, parts: int) -> Cycle:
         """The same event with `parts` samples in place of each, on straight lines between them."""
-        place = np.arange((self.time.size - 1) * parts + 1) / parts
+        known = np.arange(self.time.size, dtype=float)
+        place = np.arange((known.size - 1) * parts + 1) / parts
         given = {"time": self.time, "force": self.force, "speed": self.speed} | self.line()
-        finer: dict[str, Any] = {key: _between(place, values) for key, values in given.items()}
+        finer: dict[str, Any] = {key: on_lines(place, known, one) for key, one in given.items()}
         return replace(self, **finer)
 
     def line(self, some: slice = slice(None)) -> dict[str, Any]:
@@ -179,14 +181,6 @@ def _path(
             stacklevel=2,
         )
     return finer, found
-
-
-def _between(place: Array, values: Array) -> Array:
-    """Values (n, …) at places counted in samples, on straight lines."""
-    known = np.arange(len(values))
-    columns = values.reshape(len(values), -1).T
-    some = np.stack([np.interp(place, known, column) for column in columns], axis=-1)
-    return some.reshape(place.size, *values.shape[1:])
 
 
 _FOLLOWED = ("eccentricity", "contact_force", "contact_share", "contact_power",

@@ -35,10 +35,11 @@ def _changes(part: FurtherBearing, load: BearingLoad) -> Sizes:
 
 TAPERED_LOSSES = {"friction power": 0.6, "film parameter": 0.25, "slip": 0.37}
 OTHER_LOSSES = {"friction power": 0.08, "film parameter": 0.015, "slip": 0.07}
-"""What whole rollers change of friction, of pairs of tapered rows that are preloaded and of others.
-The first is more than the most between elastic rings, 22, 8 and 28 % in 57 machines and wind speeds
-(docs/physics.md): between rigid rings the quick look has 34 % of the power. Without the drop of
-their profile all rollers of preloaded rows stay pressed, roll along and hardly slip."""
+"""What whole rollers change of friction, of pairs of tapered rows that are preloaded and of others;
+of a slip, a share itself, the difference. The first is more than the most between elastic rings in
+57 machines and wind speeds, 22, 8 and 28 % (docs/physics.md): between rigid rings the quick look
+has 34 % of the power. Without the drop of their profile all rollers of preloaded rows stay pressed,
+roll along and hardly slip."""
 
 CONTACTS = ("maximum force", "maximum pressure", "life")
 QUANTITIES = (*CONTACTS, *OTHER_LOSSES)
@@ -87,9 +88,7 @@ SLICED = Effect(
     indicator=_sliced,
     smaller=15.0,  # 10 of the life of a bearing whose load hardly exceeds its preload
     either_way=("maximum force", *OTHER_LOSSES),
-    larger=lambda scene: (
-        7.0
-    ),  # 6.5 of the largest force, 5.5 of the life of a preloaded pair in light wind
+    larger=lambda scene: 7.0,  # 6.5 of the largest force, 5.5 of the life of a preloaded pair
     out='rolling.roller_model = "whole": each roller is one contact',
     needs='rolling.roller_model = "sliced"',
     concerns=lambda scene: any(map(_has_rollers, scene.rolling.bearings.values())),

@@ -38,7 +38,7 @@ from loadflow.studies.candidate.grown_films import fast_journal
 from loadflow.studies.candidate.pads import pad_margins
 from loadflow.studies.candidate.rolling_warmth import warmth_of
 from loadflow.studies.candidate.seeds import of_extreme, of_life, power_of_load
-from loadflow.studies.lifetime.of_run import known_shares
+from loadflow.studies.lifetime.finished_run import known_shares
 from loadflow.studies.seeds.intervals import Groups, interval
 from loadflow.studies.verdicts.verdicts import warm_in
 from loadflow.tribology import lubricant

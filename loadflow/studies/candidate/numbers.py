@@ -16,7 +16,7 @@ from loadflow.scene.scene import Scene
 from loadflow.stages.turning import of_running, runs_throughout
 from loadflow.studies.candidate.quantities import QUANTITIES
 from loadflow.studies.candidate.result import STARTS_ALONE, Number
-from loadflow.studies.lifetime.of_run import NO_SHARE, known_shares
+from loadflow.studies.lifetime.finished_run import NO_SHARE, known_shares
 from loadflow.studies.seeds.intervals import Groups, interval
 from loadflow.verdict import Verdict
 

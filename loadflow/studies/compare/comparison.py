@@ -63,7 +63,7 @@ from loadflow.studies.compare.words import (
     references,
     reservations,
 )
-from loadflow.studies.lifetime.of_run import energy_per_year
+from loadflow.studies.lifetime.finished_run import energy_per_year
 from loadflow.studies.seeds.intervals import Groups, interval, joint_life
 from loadflow.studies.verdicts.verdicts import AT_NO_RATIO
 from loadflow.verdict import Verdict, from_dataset

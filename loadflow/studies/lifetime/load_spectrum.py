@@ -18,7 +18,7 @@ from loadflow.reduction.quasistatic import class_edges
 from loadflow.scene.scene import Scene
 from loadflow.stages.frames import to_film
 from loadflow.stages.reduction import moment_governs
-from loadflow.studies.lifetime.of_run import case_shares, energy_per_year
+from loadflow.studies.lifetime.finished_run import case_shares, energy_per_year
 from loadflow.wind.cases import factor_of_maximum, row_of, stands_or_starts
 
 Floats = NDArray[np.float64]

@@ -1,12 +1,12 @@
-"""One point, or one reduced series → the numbers of a room, labelled with unit and meaning."""
+"""One load or one reduced series on one journal bearing → its film, with units and meaning."""
 
 from __future__ import annotations
 
 import csv
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -14,61 +14,12 @@ import xarray as xr
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.rungs import RUNGS
 from loadflow.quantities import CELSIUS, GRID_ERROR, table
+from loadflow.stages.labelling import quantities
 
 if TYPE_CHECKING:
     from loadflow.journal import Film, JournalBearing
 
 Load = Sequence[float]
-
-
-def quantities(rows: Mapping[str, tuple[Any, str, str]], **attrs: str) -> xr.Dataset:
-    """Label values of any shape: name → value, units, meaning."""
-    variables = {
-        name: (
-            [f"{name}_{axis}" for axis in range(np.ndim(value))],
-            np.asarray(value),
-            {"units": units, "long_name": meaning},
-        )
-        for name, (value, units, meaning) in rows.items()
-    }
-    return xr.Dataset(variables, attrs=attrs)
-
-
-def iec_conditions(
-    wind_speed: float, *, wind_class: str, category: str, rotor_diameter: float, hub_height: float
-) -> xr.Dataset:
-    """Return the wind conditions of IEC 61400-1 at a wind speed (m/s) for a rotor (m) and height.
-
-    Raises
-    ------
-    loadflow.errors.InputError
-        Unknown class or category, or a wind speed that has no gust.
-    """
-    from loadflow.wind import iec
-
-    v, size = wind_speed, (rotor_diameter, hub_height)
-    rows = {
-        "ntm_sigma": (iec.ntm_sigma(v, category), "m/s", "σ1, normal turbulence"),
-        "etm_sigma": (iec.etm_sigma(v, wind_class, category), "m/s", "σ1, extreme turbulence"),
-        "eog_amplitude": (
-            iec.eog_amplitude(v, wind_class, category, *size),
-            "m/s",
-            "extreme operating gust",
-        ),
-        "edc_angle": (iec.edc_angle(v, category, *size), "rad", "extreme direction change, ±"),
-        "ecd_angle": (iec.ecd_angle(v, wind_class), "rad", "coherent gust with direction change"),
-        "ews_amplitude": (
-            iec.ews_amplitude(v, category, *size),
-            "m/s",
-            "extreme wind shear, bracket before (1 − cos)",
-        ),
-        "length_scale": (iec.length_scale(hub_height), "m", "turbulence scale Λ1"),
-    }
-    conditions = (
-        f"v = {v:g} m/s, class {wind_class}, category {category}, "
-        f"D = {rotor_diameter:g} m, hub at {hub_height:g} m"
-    )
-    return quantities(rows, conditions=conditions)
 
 
 def journal_point(force: Load, speed: float, bearing: JournalBearing, film: Film) -> xr.Dataset:

@@ -25,9 +25,10 @@ from loadflow.rolling.rating.life import life_hours
 from loadflow.rolling.rating.static import HOURS_20_YEARS
 from loadflow.scene.bearings import FurtherBearing, around, standing_ring
 from loadflow.scene.scene import read_scene
+from loadflow.stages.labelling import quantities
 from loadflow.stages.rolling import KEPT
 from loadflow.stages.rolling_at_work import as_stated
-from loadflow.studies.one_bearing.journal import Load, quantities, written_coefficients
+from loadflow.studies.one_bearing.journal import Load, written_coefficients
 from loadflow.tribology import lubricant
 
 Rings = Literal["rigid"] | FlexibleRings

@@ -16,7 +16,8 @@ from loadflow.quantities import GRID_ERROR, table
 from loadflow.scene.messages import message
 from loadflow.scene.scene import read_scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.studies.one_bearing.journal import Load, quantities
+from loadflow.stages.labelling import quantities
+from loadflow.studies.one_bearing.journal import Load
 
 
 def bearing_of_scene(path: Path, name: str | None, kind: str) -> AnyAxial:

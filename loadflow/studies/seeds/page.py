@@ -15,7 +15,7 @@ from loadflow.seeds import averaged_spectrum, probability_paper
 from loadflow.seeds.probability import Distribution
 from loadflow.seeds.spectra import BAND
 from loadflow.studies.channels import channel
-from loadflow.studies.seeds.equality import (
+from loadflow.studies.seeds.verdicts import (
     HEADS,
     SUFFICIENCY_HEADS,
     Group,
@@ -70,7 +70,7 @@ def write_seed_page(
     groups : mapping
         What `groupings` found in it.
     margin, uncertainty : float
-        See `loadflow.studies.seeds.equality.sufficiency`.
+        See `loadflow.studies.seeds.verdicts.sufficiency`.
     source : str
         Name of the cube, for the title.
     """

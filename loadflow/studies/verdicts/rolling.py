@@ -17,7 +17,7 @@ from loadflow.rolling.rating.static import (
 from loadflow.scene.lifetime_shares import PRODUCTION
 from loadflow.scene.limits import RollingLimits
 from loadflow.scene.scene import Scene
-from loadflow.studies.lifetime.of_run import NO_SHARE
+from loadflow.studies.lifetime.finished_run import NO_SHARE
 from loadflow.studies.verdicts.parts import STATED, answered, worst_of
 from loadflow.studies.verdicts.uncarried import SLIGHT
 from loadflow.verdict import Verdict

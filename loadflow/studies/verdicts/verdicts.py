@@ -44,7 +44,7 @@ def verdicts(
     tables : mapping
         Results by stage, each over ``bearing`` and ``case``: shaft, journal, thrust, rolling.
     lifetime : xarray.Dataset or None
-        Of `loadflow.studies.lifetime.of_run.run_lifetime`.
+        Of `loadflow.studies.lifetime.finished_run.run_lifetime`.
     missing : mapping, optional
         By stage, the load cases that it could not answer at all.
     """

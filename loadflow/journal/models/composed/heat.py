@@ -37,6 +37,7 @@ from loadflow.journal.solvers.warm_rows import (
     in_grown_clearances,
     with_heat_bounds,
 )
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 
@@ -234,8 +235,7 @@ def _mean_on_pads(asked: AtRest) -> tuple[MeanHeat, Thickness, Statics]:
     angle = np.arctan2(ring.sin, ring.cos)
 
     def around(cells: Array) -> Array:
-        rows = [np.interp(angle, mesh.angle, row, period=2.0 * np.pi) for row in cells.T]
-        return np.stack(rows, axis=1)
+        return on_lines(angle, mesh.angle, cells, period=2.0 * np.pi)
 
     across = cast("WarmGap", statics.gap).across_film
     found = Thickness(mesh.z, around(across.flow), around(across.shear), around(across.drag))

@@ -35,6 +35,7 @@ from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.journal.models.slow_heat import COLD, standing_states
 from loadflow.journal.questions import AtPosition
 from loadflow.numerics.convergence import Limits
+from loadflow.numerics.lines import on_lines
 
 Array = NDArray[np.float64]
 
@@ -299,8 +300,7 @@ def _moved(held: Held, shown: ComposedFilm) -> Array:
     values, ring = held.pressure if smooth else held.unknowns, own.film.ring
     if ring.cos.size != shown.film.ring.cos.size:
         old, new = (np.arctan2(one.sin, one.cos) for one in (ring, shown.film.ring))
-        lines = [np.interp(new, old, line, period=2.0 * np.pi) for line in values.T]
-        values = np.ascontiguousarray(np.transpose(lines))
+        values = on_lines(new, old, values, period=2.0 * np.pi)
     if not smooth:
         return unknowns_on(values, own, shown)
     points = own.film.nodes.slopes.shape[1]

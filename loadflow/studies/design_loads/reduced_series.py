@@ -19,8 +19,8 @@ from loadflow.scene.journal import Journal
 from loadflow.stages.kept_samples import stretch
 from loadflow.stages.reduction import reduced_dataset
 from loadflow.studies.bearing_series import BearingSeries, iter_bearings, suspension
-from loadflow.studies.design_loads.error import HEADS as FILM_HEADS
-from loadflow.studies.design_loads.error import (
+from loadflow.studies.design_loads.reduction_error import HEADS as FILM_HEADS
+from loadflow.studies.design_loads.reduction_error import (
     FilmError,
     for_long_series,
     solve_films,
