@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,7 @@ from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import no_film, solve_film
 from loadflow.journal.solvers.search import searches
+from loadflow.journal.solvers.sinking import solve_by_sinking
 from loadflow.journal.solvers.static_rows import equilibrium_rows
 from loadflow.journal.solvers.statics import Statics
 from loadflow.journal.solvers.transient import OrbitStopped
@@ -60,6 +62,73 @@ def test_tilted_rough_shafts_start_where_no_asperities_hold_them(number):
 @pytest.mark.parametrize("number", [20030, 20112])
 def test_where_steps_of_the_load_end_its_path_goes_on(number):
     carries_its_load(number)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [60046, 60068, 61280])
+def test_a_shaft_that_is_let_go_sinks_to_where_no_steps_lead(number, monkeypatch):
+    """Rough soft shells, in which steps of load, shell and speed end short of an equilibrium."""
+    point, solve = drawn("composed", number)
+    found, around = solve(), point.film["grid"][0]
+    assert found.converged
+    finer = point.film | {"grid": (2 * around, 20)}
+    told = point.bearing.equilibrium(point.force, point.speed, point.oil, **finer)
+    # the same film on twice the cells, which comes another way or sinks again
+    assert found.minimum_film == pytest.approx(told.minimum_film, rel=3e-3)
+    assert found.eccentricity == pytest.approx(told.eccentricity, abs=0.02 * point.gap)
+    monkeypatch.setattr(statics, "solve_by_sinking", lambda *given: None)
+    with pytest.raises(SolverError, match="no equilibrium found"):
+        solve()
+
+
+@pytest.mark.slow
+def test_a_shaft_that_sinks_to_the_end_of_its_contact_is_told_to_touch():
+    """Before, the load was sought to the end, and only said not to be found."""
+    with pytest.raises(SolverError, match="touches the bore beyond the law of contact"):
+        drawn("composed", 60101)[1]()
+
+
+ROUGH_BORE = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
+ROUGH_FILM = Film(
+    Lubricant(0.03),
+    Guembel(),
+    grid=(48, 8),
+    contact=Contact(AsperityContact(roughness=1e-6, contact_modulus=115e9, factor=1e-3)),
+)
+
+
+@pytest.mark.parametrize("shell", [None, LocalShell(1e-12)], ids=["rigid", "soft"])
+def test_a_shaft_sinks_to_its_equilibrium(shell):
+    load, speed, effort = np.array([3e4, 1e4]), 2.0, Effort(1e9)
+    film = replace(ROUGH_FILM, shell=shell, inlet=None)
+    fixed = Statics(ROUGH_BORE, film, Line(), speed, crowd=())
+    fixed.raise_scale(load[None])
+    known = fixed.solve(0, load, speed, None, Limits(1e-10, 60))
+    assert known.converged
+    first = np.zeros(2) + 0.9 * load / np.hypot(*load)
+    sunk = solve_by_sinking(fixed.film, load, first, 1e-10, 60, effort)
+    assert sunk.converged
+    assert sunk.position == pytest.approx(known.position, abs=1e-8)
+    assert 0 < sunk.iterations == effort.spent
+
+
+def test_a_shaft_that_nothing_carries_sinks_to_its_bore():
+    load, speed, effort = np.array([3e8, 1e8]), 2.0, Effort(1e9)
+    fixed = Statics(ROUGH_BORE, replace(ROUGH_FILM, inlet=None), Line(), speed, crowd=())
+    fixed.raise_scale(load[None])
+    first = 0.9 * load / np.hypot(*load)
+    sunk = solve_by_sinking(fixed.film, load, first, 1e-10, 60, effort)
+    assert not sunk.converged
+    assert load_stepping.has_touched(fixed.film, sunk)
+    assert 0.5 < sunk.residual < 1.0
+
+
+def test_a_shaft_sinks_no_longer_than_its_effort():
+    load, effort = np.array([3e4, 1e4]), Effort(1.0)
+    fixed = Statics(ROUGH_BORE, replace(ROUGH_FILM, inlet=None), Line(), 2.0, crowd=())
+    fixed.raise_scale(load[None])
+    fixed.film.set_speed(2.0)
+    assert solve_by_sinking(fixed.film, load, np.array([0.5, 0.0]), 1e-10, 60, effort) is None
 
 
 def carries_its_load(number):
@@ -117,6 +186,7 @@ def test_steps_that_leave_the_rest_of_their_effort_to_the_way_from_standing_say_
     _, solve = drawn("composed", 186)
     monkeypatch.setattr(statics, "_STANDING", 1.0)
     monkeypatch.setattr(Statics, "_from_standing", lambda *given: None)
+    monkeypatch.setattr(statics, "solve_by_sinking", lambda *given: None)
     with pytest.raises(SolverError, match="all that a search may take"):
         solve()
 
@@ -442,6 +512,7 @@ def test_a_search_that_leads_nowhere_ends_after_a_count_of_steps_that_it_tells(n
         return linearise(film, *given, **words)
 
     monkeypatch.setattr(DiscreteFilm, "linearise", counted)
+    monkeypatch.setattr(statics, "solve_by_sinking", lambda *given: None)  # it finds number 238
     told = r"residual \S+ after (\d+) steps, .*all that a search may take"
     with pytest.raises(SolverError, match=told):
         drawn("composed", number)[1]()

@@ -13,6 +13,7 @@ from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import DiscreteFilm
 
 _STEPS_OF_CELLS = 4e4  # Newton steps times cells, for each step that one solution may take
+_SINKING = 0.5  # of that, on top, for a shaft that sinks where no other way has found its film
 _LEAST = 3  # steps on any cells, in multiples of those that one solution may take
 # time of a step over that in a rigid bore: of a shell that gives way locally, of one that gives way
 # all over, for each column of its linear system, and of asperities on either; what such a shell
@@ -34,6 +35,8 @@ class Effort:
         Of these, that earlier films of a `Search` have taken.
     kept : float
         Of what is left, that is kept for other cells.
+    sinking : float
+        What a shaft may take that sinks where all else has failed, in the unit of `left`.
     found, vain : int
         Films of loads that share it, found and sought in vain.
 
@@ -50,12 +53,14 @@ class Effort:
     kept: float = 0.0
     found: int = 0
     vain: int = 0
+    sinking: float = 0.0
 
     @classmethod
     def of(cls, film: DiscreteFilm, max_iterations: int) -> Effort:
         """That of a film of which one solution may take as many steps, or more by its law."""
         most = film.newton_steps(max_iterations)
-        return cls(most * max(_STEPS_OF_CELLS, _LEAST * _cost(film)))
+        left = most * max(_STEPS_OF_CELLS, _LEAST * _cost(film))
+        return cls(left, sinking=_SINKING * left)
 
     @property
     def taken(self) -> int:

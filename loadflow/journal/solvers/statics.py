@@ -45,6 +45,7 @@ from loadflow.journal.solvers.other_loads import solve_from_other_loads
 from loadflow.journal.solvers.pad_search import search_on_pads
 from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads, with_further_pads
 from loadflow.journal.solvers.path import solve_beyond_fold, solve_elastic_in_steps
+from loadflow.journal.solvers.sinking import solve_by_sinking
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]
@@ -204,6 +205,8 @@ class Statics:
             cut, effort.kept = effort.over, kept
             if turns and not (soft or ended(film, solution, effort)):
                 solution = self._from_standing(*given) or solution
+        if in_steps and stands(film) and not (solution.converged or self._told(solution)):
+            solution = self._sunk(force, estimate, limits, effort, solution)
         found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
         return replace(found, given_up=(cut or effort.over) and not found.converged)
 
@@ -402,6 +405,27 @@ class Statics:
             return self._by_newton(share * force, place, before, limits, effort)[0]
 
         return solve_from_other_loads(newton, limits[1], effort)
+
+    def _told(self, solution: Solution) -> bool:
+        """Whether where a search has ended says why there is no equilibrium."""
+        film = self.film
+        return has_touched(film, solution) or film.clearance_left(solution.position) <= APART
+
+    def _sunk(
+        self,
+        force: Array,
+        estimate: Array,
+        limits: tuple[float, int],
+        effort: Effort,
+        reached: Solution,
+    ) -> Solution:
+        """Where the shaft comes to rest that is let go, or meets its bore; or what is `reached`."""
+        film, own = self.film, Effort(effort.sinking)
+        found = solve_by_sinking(film, force, estimate, *limits, own, self.shaft)
+        effort.sinking, effort.spent = own.left, effort.spent + own.spent
+        if found is None and np.isfinite(reached.position).all():
+            film.place(reached.u, reached.position)  # the gap by which it is judged
+        return found or reached
 
     def _in_steps(
         self,

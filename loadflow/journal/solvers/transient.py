@@ -128,12 +128,12 @@ class Marcher:
             self.film.set_speed(before[1] + at * (speed - before[1]))
             line = None if lines is None else lines[0] + at * (lines[1] - lines[0])
             before_step = past = self._on_pads(past)
-            solution = self._try(past, now, load, line)
+            solution = self.attempt(past, now, load, line)
             spent += solution.iterations
             if not solution.converged and self.film.gap.pads.size and share <= LATER:
                 before_step = self._on_other_pads(past, solution)
                 if before_step is not past:
-                    solution = self._try(before_step, now, load, line)
+                    solution = self.attempt(before_step, now, load, line)
                     spent += solution.iterations
             growth = self._growth(past, now, solution.position) if solution.converged else 0.5
             if growth >= SAFETY:
@@ -161,7 +161,10 @@ class Marcher:
         narrow = self.film.gap.narrowest(position)
         return step_size.growth(left, narrow, step, before, earlier, self.accuracy)
 
-    def _try(self, past: list[Past], time: float, force: Array, line: Array | None) -> Solution:
+    def attempt(
+        self, past: list[Past], time: float, force: Array, line: Array | None = None
+    ) -> Solution:
+        """One step to `time`, whatever comes of it: backward Euler from a `past` of one time."""
         last = past[-1]
         step = time - last.time
         u, position = last.u, last.position
