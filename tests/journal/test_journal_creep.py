@@ -14,6 +14,7 @@ from loadflow.journal.models.composed import rest_on_level as composed_rest
 from loadflow.journal.models.composed.kernels._loops import solve
 from loadflow.journal.models.composed.model import build
 from loadflow.journal.models.slow_heat import COLD, standing_states
+from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -117,6 +118,22 @@ def test_a_standing_shaft_in_a_soft_shell_has_the_contact_of_the_grid(compliance
     for name, bound in (("eccentricity_ratio", 2e-4), ("contact_pressure", 5e-3),
                         ("minimum_film", 5e-3)):  # fmt: skip
         assert getattr(few, name) == pytest.approx(getattr(fine, name), rel=bound), name
+
+
+def test_all_ways_to_a_creeping_film_share_one_count_of_work(monkeypatch):
+    speed, force = np.array([1e-3]), np.array([(3e6, 6e5)])
+    model = build(BEARING, FILM, speed, Line(), 0, at_rest=True)
+
+    def sought():
+        given = model.loads(force), model.lines(1), Limits(1e-10, 60), COLD, standing_states(1)
+        creep = composed_creep.Creep(model, *given)
+        return len(list(creep.places(1e-3))), creep.spent
+
+    found, spent = sought()
+    assert found > 0
+    monkeypatch.setattr(composed_creep, "_WORK", 30.0 * model.work.u.size)
+    assert sought() == (0, 30)
+    assert spent > 30
 
 
 def test_steps_of_every_way_count(alone, monkeypatch):
