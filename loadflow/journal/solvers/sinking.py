@@ -107,8 +107,9 @@ def _left(film: DiscreteFilm, position: Array) -> float:
     if film.elastic:
         return film.clearance_left(position)
     gap = film.gap
-    rough = isinstance(gap, (RoughGap, RoughShapedGap))
-    return gap.until_end(position) if rough else gap.narrowest(position)
+    if isinstance(gap, (RoughGap, RoughShapedGap)):
+        return gap.until_end(position)
+    return gap.narrowest(position)
 
 
 def _touches(film: DiscreteFilm, position: Array) -> bool:
