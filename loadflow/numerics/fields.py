@@ -170,7 +170,7 @@ def not_one_of(value: object, allowed: Iterable[str]) -> str:
     >>> not_one_of("iso-vg-86", ["iso-vg-46", "iso-vg-68"])
     "must be one of iso-vg-46, iso-vg-68, got 'iso-vg-86'; did you mean iso-vg-68?"
     >>> not_one_of("oil", ["oil, filtered", "grease"])
-    "must be one of 'oil, filtered', grease, got 'oil'; did you mean oil, filtered?"
+    "must be one of 'oil, filtered', grease, got 'oil'"
     """
     known = [*allowed]
     near = meant(value, known) if isinstance(value, str) else ""
