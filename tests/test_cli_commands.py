@@ -13,7 +13,7 @@ from synthetic import case, cube_file
 from loadflow.cube import make_cube, open_cube, save_cube
 from loadflow.journal import GasMixture, JournalBearing, Lubricant
 from loadflow.reduction import read_parameter_file
-from loadflow.rolling import SlewingBearing
+from loadflow.rolling import SlewingBearing, SphericalRollerBearing
 from loadflow.seeds import equality, holm
 from loadflow.shaft import TwoPoint, bearing_loads
 from loadflow.tribology import lubricant
@@ -326,6 +326,29 @@ def test_rolling_takes_a_bearing_and_its_rings_from_a_scene(loadflow, tmp_path):
     assert (code, "no rolling bearing 'M'; there are N, N2" in err) == (2, True)
     code, _, err = loadflow("rolling", "--scene", scene, *ROLLING)
     assert (code, "leave out --balls" in " ".join(err.split())) == (2, True)
+
+
+def test_one_bearing_of_a_candidate_is_solved_and_not_the_one_that_a_scene_has_by_default(
+    loadflow, tmp_path
+):
+    scene = tmp_path / "own.toml"
+    bearing = {"rollers": 28, "roller_diameter": 0.09, "roller_length": 0.13, "pitch_diameter": 1.0,
+               "contact_angle": 0.18}  # fmt: skip
+    keys = "".join(f"{name} = {value}\n" for name, value in bearing.items())
+    place = '[candidates.own.N]\nkind = "spherical"\n[candidates.own.N.geometry]\n'
+    scene.write_text(f"[shaft.two_point]\n{place}{keys}")
+    load = "--force-x", 1e6, "--json"
+    found = json.loads(loadflow("rolling", "--scene", scene, *load)[1])
+    assert found == json.loads(
+        loadflow("rolling", "--scene", scene, "--bearing", "own.N", *load)[1]
+    )
+    solved = SphericalRollerBearing(**bearing).equilibrium((1e6, 0.0, 0.0))
+    assert found["maximum_pressure"]["value"] == pytest.approx(
+        float(solved.maximum_pressure), rel=1e-6
+    )
+    code, _, err = loadflow("rolling", "--scene", scene, "--bearing", "N", *load)
+    assert code == 2
+    assert "there are own.N" in err
 
 
 # -- what is refused --------------------------------------------------------------------------

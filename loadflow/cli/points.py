@@ -269,7 +269,8 @@ def rolling(
         Path | None, typer.Option(help="Take bearing and rings from this scene instead.")
     ] = None,
     bearing: Annotated[
-        str | None, typer.Option(help="Which one of the scene; default its first.")
+        str | None,
+        typer.Option(help="Which one of the scene, of a candidate as NAME.N; default its first."),
     ] = None,
     force_x: Annotated[float, typer.Option(help="On the inner ring, radial, N.")] = 0.0,
     force_y: Annotated[float, typer.Option(help="Radial, N.")] = 0.0,

@@ -169,10 +169,12 @@ def not_one_of(value: object, allowed: Iterable[str]) -> str:
     --------
     >>> not_one_of("iso-vg-86", ["iso-vg-46", "iso-vg-68"])
     "must be one of iso-vg-46, iso-vg-68, got 'iso-vg-86'; did you mean iso-vg-68?"
+    >>> not_one_of("oil", ["oil, filtered", "grease"])
+    "must be one of 'oil, filtered', grease, got 'oil'"
     """
     known = [*allowed]
     near = meant(value, known) if isinstance(value, str) else ""
-    return f"must be one of {', '.join(known)}, got {value!r}{near}"
+    return f"must be one of {_listed(known)}, got {value!r}{near}"
 
 
 def none_such(what: str, names: Iterable[str], known: Iterable[str]) -> str:
@@ -188,5 +190,9 @@ def none_such(what: str, names: Iterable[str], known: Iterable[str]) -> str:
     there, asked = [*known], [*names]
     near = "".join(dict.fromkeys(meant(one, there) for one in asked))
     told = ", ".join(map(repr, asked))
-    names = ", ".join(repr(one) if "," in one else one for one in there)
-    return f"no {what} {told}{near}{' There' if near else '; there'} are {names}"
+    return f"no {what} {told}{near}{' There' if near else '; there'} are {_listed(there)}"
+
+
+def _listed(names: Iterable[str]) -> str:
+    """Names side by side; in quotes where they have commas of their own."""
+    return ", ".join(repr(one) if "," in one else one for one in names)

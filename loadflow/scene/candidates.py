@@ -7,6 +7,7 @@ from functools import cache
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
+from loadflow.errors import InputError
 from loadflow.rolling.rings.usual import usual_rings
 from loadflow.scene.places import GEOMETRIES
 
@@ -61,22 +62,41 @@ def candidates_of(turbine: str) -> Mapping[str, Any]:
 
     Rolling bearings have rings that follow from their rolling elements, and the cooling that the
     machine states for all of them.
+
+    Raises
+    ------
+    loadflow.errors.InputError
+        One of them has no title or source, or a bearing of it cannot be; names its file.
     """
     read = machine(turbine)
     found: dict[str, Any] = read.get("candidates", {})
     shared = {"cooling": read["cooling"]} if "cooling" in read else {}
+    for name, one in found.items():
+        if missing := [key for key in ABOUT if key not in one]:
+            raise InputError(f"{_file(turbine, name)}: {', '.join(missing)}: this key is missing")
     return {
-        name: {key: _completed(part, shared) for key, part in one.items()}
+        name: {
+            key: _completed(part, shared, f"{_file(turbine, name)}.{key}")
+            for key, part in one.items()
+        }
         for name, one in found.items()
     }
 
 
-def _completed(part: Any, shared: dict[str, Any]) -> Any:
+def _file(turbine: str, name: str) -> str:
+    """Where a candidate stands, for messages."""
+    return f"data/machines/{turbine}.toml: candidates.{name}"
+
+
+def _completed(part: Any, shared: dict[str, Any], place: str) -> Any:
     """A place with what all rolling bearings share, and usual rings where they may be flexible."""
     kind = part.get("kind") if isinstance(part, dict) else None
     if kind not in GEOMETRIES:
         return part
     if not GEOMETRIES[kind].flexible_rings:
         return shared | part
-    inner, outer = usual_rings(GEOMETRIES[kind](**part["geometry"]))
+    try:
+        inner, outer = usual_rings(GEOMETRIES[kind](**part["geometry"]))
+    except InputError as error:
+        raise InputError(f"{place}.geometry: {error}") from None
     return {"inner_ring": inner.written, "outer_ring": outer.written} | shared | part

@@ -133,11 +133,25 @@ def _listed(item: ErrorDetails) -> bool:
     return item["type"] == "literal_error" and isinstance(item["input"], str)
 
 
+_CATALOGUE_WORDS = {
+    "preload": ("clearance", "a preload is a negative clearance"),
+    "osculation": ("groove_radius", "groove_radius is the osculation times ball_diameter"),
+    "load_rating": ("dynamic_capacity", "C is dynamic_capacity"),
+    "C": ("dynamic_capacity", "C is dynamic_capacity"),
+    "static_capacity": ("dynamic_capacity", "C₀ follows from the geometry (ISO 76)"),
+    "C0": ("dynamic_capacity", "C₀ follows from the geometry (ISO 76)"),
+}
+"""What catalogues call that has no key: the key that stands for it, and what to write."""
+
+
 def _unknown(location: Location, schema: Mapping[str, Any]) -> str:
     """Say that a key is unknown, what is known there, and which may be meant, there or below."""
     *above, name = location
     known = _known(tuple(above), schema)
     here = [key for path, key in known if path == key]
+    key, says = _CATALOGUE_WORDS.get(str(name), ("", ""))
+    if key in here:
+        return f"unknown key; {says}; known here: {', '.join(sorted(here))}"
     told = unknown_key(str(name), here)
     if meant(str(name), here):
         return told

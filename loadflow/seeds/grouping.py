@@ -85,12 +85,13 @@ class Grouping:
         return [tuple(np.flatnonzero(labels == g).tolist()) for g in range(labels.max() + 1)]
 
     def in_words(self, names: Sequence[str]) -> str:
-        """Groups by the `names` of their seeds, the representative of each marked, and reasons."""
-        marked = [
-            "{" + ", ".join(names[i] + ("*" if i == chief else "") for i in members) + "}"
+        """Groups by the `names` of their seeds, who stands for each of several, and reasons."""
+        told = [
+            "{" + ", ".join(names[i] for i in members) + "}"
+            + (f" ({names[chief]} stands for them)" if len(members) > 1 else "")
             for members, chief in zip(self.groups, self.representatives)
-        ]
-        return f"{' '.join(marked)} (* represents its group). {'. '.join(self.reasons)}"
+        ]  # fmt: skip
+        return f"{' '.join(told)}. {'. '.join(self.reasons)}"
 
 
 def group_seeds(

@@ -27,6 +27,7 @@ from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling_at_work import at_work
 from loadflow.studies.candidate.grown_films import fast_journal
 from loadflow.studies.design.point import DesignPoint, judge_design
@@ -189,6 +190,24 @@ def test_with_loads_grown_by_the_margin_the_first_limit_is_reached(cube, series,
     above = 0.03 if candidate.rolling is None else 0.1
     assert 0.97 < after.load_factor < 1.0 + above
     assert before.numbers["energy"] > 0
+
+
+def test_the_largest_pressure_of_a_design_is_that_of_the_hardest_samples(cube, series):
+    """They have no share of the lifetime, and still press."""
+    scene = scene_of(cube)
+    candidate = scene.candidates["two-spherical"]
+    spectrum = load_spectrum(scene, series, candidate.places, 4)
+    pressures, lasting = [], []
+    for place, bearing in candidate.rolling.geometries.items():
+        samples = spectrum[place].to_dataset()
+        force = samples["force"].transpose("sample", "axis").values
+        found = bearing.equilibrium(to_rolling(force)).maximum_pressure
+        pressures.append(found.max())
+        lasting.append(found[samples["weight"].values > 0].max())
+    given = Friction(cooling={place: Cooling(temperature=313.15) for place in candidate.places})
+    found = judge_design(candidate, given, spectrum).numbers["contact_pressure"]
+    assert found == pytest.approx(max(pressures), rel=1e-9)
+    assert max(pressures) > 1.0005 * max(lasting)  # so that it matters which
 
 
 def test_a_design_is_as_warm_as_its_mean_friction_and_cooling_make_it(cube, series):

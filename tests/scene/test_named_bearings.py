@@ -3,6 +3,7 @@
 import pytest
 
 from loadflow.errors import InputError
+from loadflow.scene import candidates
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene
 from loadflow.scene.unused import unused_keys
@@ -22,6 +23,30 @@ def test_no_key_of_bearings_taken_by_name_is_said_to_have_no_effect(turbine):
         assert unused_keys(scene) == {}, name
     written = {"turbine": {"name": turbine}, "bearings": OWN_PLACES}
     assert {*unused_keys(make_scene(written))} == {"journal.self_aligning"}
+
+
+WIDE = {"rollers": 44, "roller_diameter": 0.09, "roller_length": 0.12, "pitch_diameter": 1.4}
+
+
+@pytest.mark.parametrize(
+    ("changed", "told"),
+    [
+        ({"source": None}, "candidates.two: source: this key is missing"),
+        ({"N": {"kind": "roller", "geometry": WIDE | {"pitch_diameter": 1.2}}},
+         "candidates.two.N.geometry: rollers: 44 of 0.09 m do not fit"),
+        ({}, ""),
+    ],
+)  # fmt: skip
+def test_a_new_arrangement_of_a_turbine_is_told_what_it_lacks(monkeypatch, changed, told):
+    stated = {"title": "two", "source": "here", "N": {"kind": "roller", "geometry": WIDE}} | changed
+    one = {key: value for key, value in stated.items() if value is not None}
+    monkeypatch.setattr(candidates, "machine", lambda turbine: {"candidates": {"two": one}})
+    read = candidates_of.__wrapped__  # not the one that remembers what the package has
+    if told:
+        with pytest.raises(InputError, match=rf"machines/nrel-5mw\.toml: {told}"):
+            read("nrel-5mw")
+    else:
+        assert {*read("nrel-5mw")["two"]["N"]} >= {"inner_ring", "outer_ring", "geometry"}
 
 
 def test_a_collar_alone_is_asked_of_bearings_that_have_films_beside_it():

@@ -111,6 +111,21 @@ def test_what_is_no_four_point_bearing_is_refused_where_it_is_written(geometry, 
         make_scene(TWO | {"rolling": {"geometry": FOUR_POINT["geometry"] | geometry}})
 
 
+@pytest.mark.parametrize(
+    ("word", "bearing", "told"),
+    [
+        ("preload", SPHERICAL, "a preload is a negative clearance"),
+        ("osculation", FOUR_POINT, "groove_radius is the osculation times ball_diameter"),
+        ("static_capacity", SPHERICAL, "C₀ follows from the geometry"),  # not: dynamic_capacity?
+        ("osculation", SPHERICAL, "unknown key; known here"),
+    ],
+)
+def test_words_of_catalogues_are_told_what_stands_for_them(word, bearing, told):
+    geometry = bearing["geometry"] | {word: 0.5}
+    with pytest.raises(InputError, match=rf"bearings\.N\.geometry\.{word}: .*{told}"):
+        scene_with(N=bearing | {"geometry": geometry})
+
+
 def test_results_left_out_are_those_of_the_bearings_that_there_are():
     rooms = {r.split(".")[0] for r in scene_with(M=FOUR_POINT).results}
     assert "rolling" in rooms

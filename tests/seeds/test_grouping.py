@@ -42,6 +42,9 @@ def test_three_kinds_of_seed_become_three_groups_with_reasons():
     assert len(got.reasons) == 3
     assert got.representatives[0] in (0, 1, 3, 5)
     assert got.representatives[1:].tolist() == [2, 4]
+    chief = got.representatives[0] + 1
+    told = got.in_words([*"123456"])  # a star would mean a test that fails, in the table above it
+    assert told.startswith(f"{{1, 2, 4, 6}} ({chief} stands for them) {{3}} {{5}}. groups 1 and 2")
 
 
 def test_equal_seeds_are_one_group_except_for_the_stated_false_alarms():

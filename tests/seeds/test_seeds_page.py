@@ -20,7 +20,7 @@ def verdicts_of(merge, together):
     )
 
 
-ONE, TWO = "{1*, 2} (* …). equal", "{1*} {2*} (* …). groups 1 and 2: spread differs (p = 0.0014)"
+ONE, TWO = "{1, 2} (1 stands …). equal", "{1} {2}. groups 1 and 2: spread differs (p = 0.0014)"
 
 
 def test_seeds_that_differ_at_one_wind_speed_alone_are_said_to_be_chance_and_merged():

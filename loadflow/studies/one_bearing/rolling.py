@@ -86,7 +86,9 @@ def slewing_bearing(
 def bearing_of_scene(path: Path, name: str | None) -> FurtherBearing:
     """Return a rolling bearing of a scene, its first if no `name` is given.
 
-    With a mounting it has its clearance at the temperature of the section ``[friction]``.
+    Those of a candidate are called by it and their place, ``two-spherical.N``. They come after
+    those of ``[bearings]``, and before those that a scene has which states none. With a mounting a
+    bearing has its clearance at the temperature of the section ``[friction]``.
 
     Raises
     ------
@@ -94,7 +96,13 @@ def bearing_of_scene(path: Path, name: str | None) -> FurtherBearing:
         No such scene or bearing.
     """
     scene = read_scene(path)
-    bearings = scene.rolling.bearings
+    own = {
+        f"{candidate}.{place}": part
+        for candidate, one in scene.candidates.items()
+        for place, part in one.bearings["rolling"].items()
+    }
+    usual, stated = scene.rolling.bearings, "rolling" in scene.model_fields_set
+    bearings = usual | own if stated or not own else own
     name = name or next(iter(bearings))
     if name not in bearings:
         raise InputError(f"{path}: no rolling bearing {name!r}; there are {', '.join(bearings)}")
