@@ -3,8 +3,9 @@
 ``sizes`` lets the pilot measure every effect on single wind speeds of three turbines, ``elements``
 that of rollers in slices, in a bearing that the scenes of ``sizes`` do not have, ``films`` what
 their films do not have, ``lateral`` the coherence of v and w over several seeds, ``rotors`` blades,
-tower and the grid of the wind in the same turbulence, ``scenes`` asks the plan of ten scenes what
-it keeps, ``runs`` makes whole runs of the main job from the coarsest models to all that there is
+tower and the grid of the wind in the same turbulence, ``drawn`` and ``held_out`` rings and rollers
+of machines drawn by seed, ``scenes`` asks the plan of ten scenes what it keeps, ``runs`` makes
+whole runs of the main job from the coarsest models to all that there is
 and holds their answers against the last. What is measured is kept beside the page in
 ``docs/figures/physics.json``, so that each part may be measured alone; without a part the page is
 written anew from there: ``python -m benchmarks.ladder.physics [PART …]``. A part that was killed
@@ -21,6 +22,7 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments, put
 from benchmarks.ladder.__main__ import DOC, WHOLE_RUNS
+from benchmarks.ladder.physics_held_out import held_out, seen
 from benchmarks.ladder.physics_losses import loss_table, losses
 from benchmarks.ladder.physics_page import (
     draw_front,
@@ -83,6 +85,8 @@ PARTS: dict[str, Callable[[Found], Found]] = {
     "scenes": scenes,
     "jobs": jobs,
     "losses": losses,
+    "drawn": seen,
+    "held_out": held_out,
     "runs": runs,
 }
 """What is measured."""

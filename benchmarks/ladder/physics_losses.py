@@ -41,8 +41,13 @@ def machines() -> dict[str, Scene]:
 
 def losses(known: Found) -> Found:
     """What the pilot measures of them."""
+    yield from measured_losses(machines(), known)
+
+
+def measured_losses(scenes: dict[str, Scene], known: Found) -> Found:
+    """What the pilot measures of `EFFECTS` in scenes by name."""
     done = {one["scene"] for one in known}
-    for name, stated in machines().items():
+    for name, stated in scenes.items():
         if name in done:
             continue
         begun = time.process_time()

@@ -6,12 +6,13 @@ import hashlib
 import json
 import tomllib
 from collections.abc import Callable, Mapping
-from functools import cache
+from functools import cache, partial
 from importlib import resources
 from typing import Any
 
 from benchmarks.common import ROOT
 from benchmarks.ladder import physics_sizes as parts
+from benchmarks.ladder.physics_held_out import HELD_OUT, SEEN, drawn
 from benchmarks.ladder.physics_losses import machines
 from benchmarks.ladder.physics_sizes import SHORT, STOP, TURBINES, scene_of
 from benchmarks.ladder.whole_runs import whole_runs
@@ -80,6 +81,8 @@ BY_NAME: dict[str, tuple[str, Callable[[], dict[str, Scene]]]] = {
     "scenes": ("scene", ten_scenes),
     "jobs": ("scene", jobs_asked),
     "losses": ("scene", machines),
+    "drawn": ("scene", partial(drawn, SEEN)),
+    "held_out": ("scene", partial(drawn, HELD_OUT)),
     "runs": ("run", whole_runs),
 }
 """Key under which a finding of a part names its scene, and all scenes of that part."""
@@ -111,6 +114,6 @@ def rests_on(part: str, found: Mapping[str, Any]) -> str:
 
 
 def _turbine(name: str) -> Any:
-    """What the file of a turbine of the package states."""
-    file = resources.files("loadflow.turbines") / f"{name}.toml"
+    """What the file of a turbine of the package states, also of one that is scaled."""
+    file = resources.files("loadflow.turbines") / f"{name.partition('@')[0]}.toml"
     return tomllib.loads(file.read_text(encoding="utf-8"))

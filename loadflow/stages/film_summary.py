@@ -320,8 +320,8 @@ def _changes(
 
 
 def _standing(time: np.ndarray, turning: np.ndarray, ratio: np.ndarray) -> tuple[float, float]:
-    """When a turning shaft comes to a stand for good, and ε there; NaN where it does not."""
-    if not turning[0] or turning[-1]:
+    """When a shaft that has turned comes to a stand for good, and ε there; NaN where none does."""
+    if not turning.any() or turning[-1]:
         return np.nan, np.nan
     last = int(np.flatnonzero(turning)[-1])
     return float(time[last + 1]), float(ratio[last + 1])
