@@ -38,6 +38,8 @@ WARM = Film(None, Guembel(), 1e5, inlet=None, grid=GRID, heat=PadHeat("iso-vg-68
 FORCES, SPEEDS = np.array([9e5, -5e5, 3e5, 1.2e6]), np.array([1.2, 1.0, 0.7, 1.27])
 TILTS = np.array([[4e-6, 0.0], [0.0, 1e-5], [-8e-6, 1e-5], [2e-5, 1e-5]])
 CONTACT = 3.8e-6
+ENDS = 0.5 * CONTACT, COLLAR.play
+"""Gaps of the tables of this collar; one of the same row between them is made once."""
 
 
 @pytest.fixture(scope="module")
@@ -100,7 +102,7 @@ def test_the_stated_error_is_no_less_than_the_true_one(tilted):
 @pytest.mark.parametrize("share", [1e-3, 0.03, 0.3])
 def test_the_errors_of_a_table_have_that_of_its_moments(row, share):
     """Beside the grid, whose pads stay as they follow; at 5e-5 m both carry all round."""
-    table = RowTable(row, GRID, 2e-6, 6e-4, tilts=True)
+    table = RowTable(row, GRID, *ENDS, tilts=True)
     slope, angle = share * 5e-5 / 1.9, 1.0
     exact = row.pressure(5e-5, 1.2, FILM, tilt=(slope * math.sin(angle), -slope * math.cos(angle)))
     found = table.sums(*(np.array([each]) for each in (5e-5, slope, angle)))
@@ -113,7 +115,7 @@ def test_the_errors_of_a_table_have_that_of_its_moments(row, share):
 
 
 def test_pads_that_follow_the_runner_lose_less_film_to_its_tilt():
-    table = RowTable(TILTING, GRID, 2e-6, 6e-4, tilts=True)
+    table = RowTable(TILTING, GRID, *ENDS, tilts=True)
     slope, angle = 0.1 * 5e-5 / 1.9, 1.0
     tilt = slope * np.array([math.sin(angle), -math.cos(angle)])
     exact = TILTING.pressure(5e-5, 1.2, FILM, tilt=tilt)
@@ -127,7 +129,7 @@ def test_pads_that_follow_the_runner_lose_less_film_to_its_tilt():
     pressure = exact.maximum_pressure - 1e5
     assert table.pressure(*at)[0] * drag == pytest.approx(pressure, rel=5e-3)
     assert table.minimum_film(*at)[0] == pytest.approx(exact.minimum_film, rel=2e-3)
-    fixed = RowTable(LANDS, GRID, 2e-6, 6e-4, tilts=True)
+    fixed = RowTable(LANDS, GRID, *ENDS, tilts=True)
     aligned = at[0], np.zeros(1), at[2]
     lost = [1 - one.minimum_film(*at)[0] / one.minimum_film(*aligned)[0] for one in (fixed, table)]
     assert lost[1] < lost[0]

@@ -66,16 +66,21 @@ def test_axial_operator_is_exact_for_its_polynomials(nodes):
 
 
 def test_with_the_cells_of_the_grid_it_is_the_grid(monkeypatch):
-    """Every line of the compiled loops but the polynomials, against the rung "grid"."""
-    mesh = build_mesh(0.75, (36, 8), False, False, None, 1.5)
-    monkeypatch.setattr(reduced, "POINTS", mesh.z.size)
+    """Every line of the compiled loops but the polynomials, against the rung "grid".
+
+    As many cells across the half width as there are points: of another count all would be compiled
+    again.
+    """
+    film = FILM | {"grid": (36, 2 * reduced.POINTS)}
+    mesh = build_mesh(0.75, film["grid"], False, False, None, 1.5)
+    assert mesh.z.size == reduced.POINTS
     monkeypatch.setattr(reduced, "lobatto", lambda half_width, _: cells(half_width, mesh))
     time = np.linspace(0.0, 2.0, 41)
-    grid, few = both(time, load(time), OMEGA, tolerance=1e-11, **COARSE)
+    grid, few = both(time, load(time), OMEGA, tolerance=1e-11, **film)
     for name in (*FIELDS.split(), "minimum_film", "eccentricity"):
         np.testing.assert_allclose(few[name], grid[name], rtol=1e-7, err_msg=name)
     static = [
-        BEARING.equilibrium(load(time[::10]), OMEGA, rung=rung, **COARSE)
+        BEARING.equilibrium(load(time[::10]), OMEGA, rung=rung, **film)
         for rung in ("grid", "reduced")
     ]
     for name in (*FIELDS.split(), "sommerfeld_number", "reynolds_number", "laminar"):
