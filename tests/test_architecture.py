@@ -80,13 +80,14 @@ def test_no_rooms_import_each_other_in_a_circle():
     assert circles({name: found - {name, ""} for name, found in graph.items()}) == ROOM_CIRCLES
 
 
-def test_no_folders_of_a_room_import_each_other_in_a_circle():
-    """Modules right in a room, not in a folder of it, may stand above and below its folders."""
+def test_no_folders_beside_each_other_import_each_other_in_a_circle():
+    """Modules beside those folders, not in one of them, may stand above and below."""
     graph: Graph = {}
     for name, found in imports().items():
-        own = {folder(target) for target, _ in found if room(target) == room(name)}
-        graph.setdefault(folder(name), set()).update(own - {"", folder(name)})
-    graph.pop("")
+        for target, _ in found:
+            if beside := folders_that_part(name, target):
+                graph.setdefault(beside[0], set()).add(beside[1])
+                graph.setdefault(beside[1], set())
     assert circles(graph) == set()
 
 
@@ -155,11 +156,19 @@ def absolute(package: list[str], node: ast.ImportFrom) -> str:
     return ".".join([*above, *filter(None, [node.module])])
 
 
-def folder(module: str) -> str:
-    """Room and first folder of a module in one, as ``rolling.rating``; empty for others."""
+def folder(module: str) -> list[str]:
+    """Folder of a module, part by part."""
     parts = module.split(".")
-    package = parts if (ROOT.joinpath(*parts[1:])).is_dir() else parts[:-1]
-    return ".".join(package[1:3]) if len(package) > 2 else ""
+    return parts if ROOT.joinpath(*parts[1:]).is_dir() else parts[:-1]
+
+
+def folders_that_part(name: str, target: str) -> tuple[str, ...]:
+    """The two folders side by side in one room in which two modules lie; none for others."""
+    for depth, (here, there) in enumerate(zip(folder(name), folder(target), strict=False)):
+        if here != there:
+            both = (folder(name), folder(target))
+            return tuple(".".join(parts[: depth + 1]) for parts in both) if depth > 1 else ()
+    return ()
 
 
 def room(module: str) -> str:

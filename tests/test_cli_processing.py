@@ -13,8 +13,8 @@ from loadflow.journal import Groove, Supply
 from loadflow.reduction import damage_equivalent_load, read_parameter_file, stationary
 from loadflow.scene.journal import Journal
 from loadflow.seeds import group_seeds_jointly
-from loadflow.stages.film_past import past_of_speed
-from loadflow.stages.film_response import film_response
+from loadflow.stages.films.past import past_of_speed
+from loadflow.stages.films.response import film_response
 from loadflow.stages.frames import to_film
 from loadflow.studies.bearing_series import iter_bearings, with_bearings
 from loadflow.studies.design_loads.reduction_error import for_long_series, solve_films

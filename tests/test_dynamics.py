@@ -23,7 +23,7 @@ from loadflow.journal import (
     rotor_coefficients,
 )
 from loadflow.planning.plan import make_plan
-from loadflow.running.dynamics_page import dynamics_section
+from loadflow.running.pages.dynamics import dynamics_section
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, Disc, LineSupport, ShaftLine, ShaftSection, modes
 from loadflow.stages import dynamics, shaft

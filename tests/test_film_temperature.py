@@ -6,7 +6,7 @@ import pytest
 from loadflow.errors import InputError
 from loadflow.journal import FilmHeat, Heat
 from loadflow.scene import Journal
-from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.films.temperature import mean_temperature
 
 WARM = Heat(oil="iso-vg-220", inlet_temperature=313.15)
 SPEED = np.linspace(1.0, 1.3, 80)

@@ -10,7 +10,7 @@ from loadflow.scene.scene import make_scene
 from loadflow.stages.effects.clearances import CLEARANCES
 from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.situation import points, situation
-from loadflow.stages.turning import always_turns, is_parked
+from loadflow.stages.films.turning import always_turns, is_parked
 from loadflow.wind.cases import factor_of_maximum
 
 

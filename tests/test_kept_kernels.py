@@ -39,7 +39,7 @@ def edit(monkeypatch):
     ("kernel", "name"),
     [
         (SOLVER, "journal/solvers/_newton_kernels.py"),  # itself
-        (SOLVER, "journal/film/_gap_kernels.py"),  # what it calls
+        (SOLVER, "journal/film/gap/_gap_kernels.py"),  # what it calls
         (SOLVER, "tribology/_contact_integral.py"),  # constants of what that calls
         (ROOT / "rotor/control/_kernels.py", "wind/cases.py"),  # what its constants are made of
     ],

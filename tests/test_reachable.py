@@ -23,7 +23,7 @@ from loadflow.journal.supply import Restrictor
 from loadflow.scene import read_scene
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 from loadflow.studies.one_bearing import journal as journal_point
 
 BARE = {"diameter": 0.2, "width": 0.1, "relative_clearance": 1e-3}

@@ -24,12 +24,12 @@ from loadflow.report.charts import thinned
 from loadflow.report.page import ASSETS
 from loadflow.report.run_charts import over_wind_speed, seed_verdicts
 from loadflow.running import report_state
-from loadflow.running.answers_page import answer_row, without_film
 from loadflow.running.code_stamp import code_stamp
-from loadflow.running.report_page import _spread, _took, write_report
+from loadflow.running.pages.answers import answer_row, without_film
+from loadflow.running.pages.report import _spread, _took, write_report
+from loadflow.running.pages.verdicts import verdict_sentence, verdict_table
+from loadflow.running.pages.wear import wear_section
 from loadflow.running.report_state import report_is_current
-from loadflow.running.verdicts_page import verdict_sentence, verdict_table
-from loadflow.running.wear_page import wear_section
 from loadflow.scene.scene import make_scene
 from loadflow.studies.tolerances import Band
 from loadflow.verdict import Verdict, to_dataset

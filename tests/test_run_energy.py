@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.running.energy_page import energy_table
+from loadflow.running.pages.energy import energy_table
 from loadflow.scene.scene import make_scene
 from loadflow.stages import loads
 from loadflow.studies.lifetime.energy import run_energy

@@ -24,7 +24,7 @@ from loadflow.running.earlier import _as_written, _changed
 from loadflow.running.folder import part_file
 from loadflow.running.runner import run_on
 from loadflow.scene.scene import make_scene, read_scene
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 
 PIPELINES = Path(__file__).parents[1] / "pipelines"
 

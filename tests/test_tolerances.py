@@ -13,7 +13,7 @@ from loadflow.planning.plan import make_plan
 from loadflow.scene.scene import make_scene
 from loadflow.scene.schema import json_schema
 from loadflow.stages import shaft, tolerances
-from loadflow.stages.film_of_bearing import shaft_line
+from loadflow.stages.films.of_bearing import shaft_line
 from loadflow.studies.tolerances import Band, band_of
 from loadflow.tribology import lubricant
 

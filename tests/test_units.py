@@ -9,7 +9,8 @@ from loadflow.cube.schema import VARIABLES
 from loadflow.journal import JournalBearing, Lubricant
 from loadflow.journal.thrust.pad_results import ThrustResult
 from loadflow.quantities import FILM, ROLLING, percent
-from loadflow.stages import film_summary, friction, rolling
+from loadflow.stages import friction, rolling
+from loadflow.stages.films import summary as film_summary
 from loadflow.studies.design.point import NUMBERS
 
 pint = pytest.importorskip("pint", reason="pint is not installed (extra test)")

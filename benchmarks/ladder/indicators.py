@@ -26,8 +26,8 @@ from loadflow.stages.effects.effect import UNKNOWN, Effect, Sizes
 from loadflow.stages.effects.registry import EFFECTS
 from loadflow.stages.effects.shaft import STIFFNESS
 from loadflow.stages.effects.situation import situation
+from loadflow.stages.films.turning import always_turns
 from loadflow.stages.registry import STAGES
-from loadflow.stages.turning import always_turns
 
 COUNTS = 0.01
 """Share of an answer below which nothing hangs on what an indicator says of it."""

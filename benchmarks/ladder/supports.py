@@ -30,9 +30,9 @@ from benchmarks.ladder.measuring import (
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import Scene, make_scene
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages import film_support as film_seat
 from loadflow.stages import rolling_support as rolling_seat
 from loadflow.stages import shaft
+from loadflow.stages.films import support as film_seat
 
 SECTION = {"outer_diameter": 2.0, "inner_diameter": 1.6}
 """A shaft that the bearings of the scene fit around, m; assumed."""

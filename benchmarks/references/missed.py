@@ -21,7 +21,7 @@ import numpy as np
 from benchmarks.common import arguments
 from loadflow.journal import Contact, Film, Lubricant, ThickShell
 from loadflow.journal.cavitation import LOAD
-from loadflow.journal.film.energy_equation import EnergyEquation
+from loadflow.journal.film.heat.equation import EnergyEquation
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
@@ -36,7 +36,7 @@ from loadflow.validation.turbines import TURBINES, completed, published_states
 
 if TYPE_CHECKING:
     from loadflow.journal import FilmHeat
-    from loadflow.journal.film.gap_warm import WarmGap
+    from loadflow.journal.film.gap.warm import WarmGap
 
 Floats = np.ndarray
 

@@ -20,7 +20,7 @@ def main() -> None:
 
     _, loading = timed(_load)
     from loadflow.running.folder import read_manifest
-    from loadflow.running.report_page import write_report
+    from loadflow.running.pages.report import write_report
 
     page, first = timed(lambda: write_report(run, again=True))
     _, again = timed(lambda: write_report(run, again=True), repeat=3)
@@ -37,7 +37,7 @@ def main() -> None:
 
 def _load() -> None:
     import loadflow.report.figures
-    import loadflow.running.report_page  # noqa: F401
+    import loadflow.running.pages.report  # noqa: F401
 
 
 if __name__ == "__main__":

@@ -140,7 +140,7 @@ def _was_run(scene: Path, out_folder: Path, name: str | None) -> bool:
 
 def _print_profile(folder: Path) -> None:
     """Print where the time of a run went."""
-    from loadflow.running.profile_page import profile_tables
+    from loadflow.running.pages.profile import profile_tables
 
     for found in profile_tables(folder):
         table = Table(*found.heads, box=None)
@@ -328,7 +328,7 @@ def report(
         out.print(str(run_folder / "report.html"), soft_wrap=True)
         err.print("nothing has changed since it was written; --overwrite writes it again")
         return
-    from loadflow.running.report_page import write_report
+    from loadflow.running.pages.report import write_report
 
     out.print(str(write_report(run_folder, overwrite)), soft_wrap=True)
 

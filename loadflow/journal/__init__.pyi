@@ -14,7 +14,7 @@ from .crowning import best_crown as best_crown
 from .dimensionless import UnitBearing as UnitBearing
 from .energy import EnergyBalance as EnergyBalance
 from .energy import energy_balance as energy_balance
-from .film.housing_elements import housing_influence as housing_influence
+from .film.shell.housing_elements import housing_influence as housing_influence
 from .film_model import Control as Control
 from .film_model import Film as Film
 from .geometry import JournalGeometry as JournalGeometry

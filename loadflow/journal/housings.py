@@ -1,7 +1,7 @@
 """What a user states about a housing that gives way with its shell: feet, flange, or a file.
 
-Options only; `loadflow.journal.film.housing_elements` solves the housing and
-`loadflow.journal.film.bore_modes` reads the file.
+Options only; `loadflow.journal.film.shell.housing_elements` solves the housing and
+`loadflow.journal.film.shell.bore_modes` reads the file.
 """
 
 from __future__ import annotations

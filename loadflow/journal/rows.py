@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.journal.film._kernels import HM
 from loadflow.journal.film.cell_error import relative_errors
-from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap.layout import Bore
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 from loadflow.journal.film.integrals import summary
 from loadflow.journal.geometry import JournalGeometry
@@ -19,7 +19,7 @@ from loadflow.numerics.fields import require
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
-    from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.gap.gap import BoreGap
     from loadflow.journal.film.linearised import Linear
     from loadflow.journal.lubricant import Lubricant
     from loadflow.journal.solvers.newton import Solution

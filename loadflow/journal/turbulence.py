@@ -18,7 +18,7 @@ import numpy as np
 from annotated_types import Ge
 from numpy.typing import ArrayLike, NDArray
 
-from loadflow.journal.film import _turbulence_kernels as kernel
+from loadflow.journal.film.gap import _turbulence_kernels as kernel
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.validity import critical_reynolds_number

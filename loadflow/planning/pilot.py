@@ -28,10 +28,10 @@ from loadflow.scene.shaft_place import any_moves_in_films
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.registry import EFFECTS
+from loadflow.stages.films.turning import comes_from_or_to_standstill
 from loadflow.stages.probes import PROBES, Answers, hardest
 from loadflow.stages.registry import STAGES, giving
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import comes_from_or_to_standstill
 from loadflow.wind.cases import load_case
 
 SHARE = 0.05

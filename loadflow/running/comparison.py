@@ -23,7 +23,7 @@ from loadflow.running.candidates import candidate_scene, candidates_for, chosen_
 from loadflow.running.executor import HERE, Executor, Lost, executor
 from loadflow.running.folder import answered, finished_parts, part_file, read_manifest
 from loadflow.running.kept_numbers import keep, kept, key_of
-from loadflow.running.moments_page import moment_charts
+from loadflow.running.pages.moments import moment_charts
 from loadflow.running.parts import digest_of
 from loadflow.running.result import Run
 from loadflow.running.runner import Report, run_on

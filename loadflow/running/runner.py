@@ -260,7 +260,7 @@ def _run(
         say("report", 0, 1)
         if profile:
             profile.write(folder / FILE, where.workers)  # the page shows it
-        from loadflow.running.report_page import write_report  # what draws, only now
+        from loadflow.running.pages.report import write_report  # what draws, only now
 
         write_report(folder, again=profile is not None)
         say("report", 1, 1)

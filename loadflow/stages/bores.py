@@ -25,10 +25,10 @@ from loadflow.scene.shaft_place import floating
 from loadflow.shaft import Concept
 from loadflow.shaft import bearing_loads as reactions
 from loadflow.stages.effects.situation import SWING
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
+from loadflow.stages.films.turning import SLOWEST
 from loadflow.stages.frames import from_film, slope_of
 from loadflow.stages.labelling import label
-from loadflow.stages.turning import SLOWEST
 
 Floats = NDArray[np.float64]
 

@@ -18,8 +18,8 @@ from loadflow.stages.differences import Difference, differences, relative
 from loadflow.stages.effects.film import MOTION
 from loadflow.stages.effects.film_heat import HEAT
 from loadflow.stages.effects.rolling import RINGS
-from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line
-from loadflow.stages.film_past import past_of
+from loadflow.stages.films.of_bearing import equilibria, follow, shaft_line
+from loadflow.stages.films.past import past_of
 from loadflow.stages.journal import FILM as FILM_MODEL
 from loadflow.stages.journal import fast_film
 from loadflow.stages.kept_samples import stretch

@@ -25,7 +25,7 @@ from loadflow.reduction import (
 )
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Reduction
-from loadflow.stages.film_response import SAMPLES, film_response
+from loadflow.stages.films.response import SAMPLES, film_response
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
 

@@ -22,8 +22,8 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.shaft import Concept, Disc, LineSupport, ShaftLine, modes, unbalance_response
 from loadflow.shaft.beam import Beam, BearingSupport
-from loadflow.stages.film_of_bearing import shaft_line
-from loadflow.stages.film_support import TURN
+from loadflow.stages.films.of_bearing import shaft_line
+from loadflow.stages.films.support import TURN
 from loadflow.stages.frames import to_film
 from loadflow.stages.rolling_at_work import as_stated, friction_options, rest
 from loadflow.stages.rolling_support import rolling_model

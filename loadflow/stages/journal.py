@@ -21,11 +21,12 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.loads import Loads
 from loadflow.scene.scene import Scene
 from loadflow.scene.seats import without_seat
-from loadflow.stages.film_kept import RESOLVED, kept_of
-from loadflow.stages.film_of_bearing import equilibria, follow, shaft_line, surely_touching
-from loadflow.stages.film_past import AT_REST, past_of
-from loadflow.stages.film_summary import summary, warnings
-from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.films.kept import RESOLVED, kept_of
+from loadflow.stages.films.of_bearing import equilibria, follow, shaft_line, surely_touching
+from loadflow.stages.films.past import AT_REST, past_of
+from loadflow.stages.films.summary import summary, warnings
+from loadflow.stages.films.temperature import mean_temperature
+from loadflow.stages.films.turning import is_parked
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label, of_samples
 from loadflow.stages.running_time import with_running
@@ -40,7 +41,6 @@ from loadflow.stages.stage import (
     load_links,
     steps_of,
 )
-from loadflow.stages.turning import is_parked
 
 _TRIES = 200  # samples of a start that are asked for the first film
 
@@ -162,7 +162,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     held = options if warm is None else options.at_temperature(warm)
     film = held.film_model.closing()
     try:
-        with unresolved_counted():  # `film_summary` tells of them
+        with unresolved_counted():  # `summary` tells of them
             path = held.geometry.orbit(
                 reduced["time"].values,
                 force,

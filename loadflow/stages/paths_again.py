@@ -17,12 +17,12 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.differences import Difference, differences, relative
-from loadflow.stages.film_past import TURNS, past_of
+from loadflow.stages.films.past import TURNS, past_of
+from loadflow.stages.films.turning import SLOWEST, is_parked, turning
+from loadflow.stages.films.whirl import FORGOTTEN, whirling
 from loadflow.stages.journal import FILM as CELLS
 from loadflow.stages.running_time import counted, in_contact
 from loadflow.stages.shaft_in_films import in_motion
-from loadflow.stages.turning import SLOWEST, is_parked, turning
-from loadflow.stages.whirl import FORGOTTEN, whirling
 
 RESULT = "journal.film"
 

@@ -20,12 +20,13 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.stages.comparisons import describe_loads
 from loadflow.stages.effects.situation import points, situation
-from loadflow.stages.film_of_bearing import (
+from loadflow.stages.films.of_bearing import (
     equilibria,
     shaft_line,
     surely_carried,
     surely_touching,
 )
+from loadflow.stages.films.turning import SLOWEST, is_parked, turning
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.friction import extremes, losses
 from loadflow.stages.loads import hub_loads
@@ -35,7 +36,6 @@ from loadflow.stages.rolling import life_of, solve_bearing
 from loadflow.stages.shaft import bearing_loads
 from loadflow.stages.shaft_in_films import in_motion
 from loadflow.stages.thrust import follows, samples_of, solved
-from loadflow.stages.turning import SLOWEST, is_parked, turning
 
 Floats = NDArray[np.float64]
 

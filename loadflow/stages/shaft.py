@@ -135,7 +135,7 @@ def _worst(parts: list[xr.Dataset]) -> dict[str, float]:
 
 
 def _film(options: Journal, speed: Floats, tilting: bool, bore: Floats) -> CoupledBearing:
-    from loadflow.stages.film_support import film_model
+    from loadflow.stages.films.support import film_model
 
     fastest = float(np.abs(speed).max())
     return CoupledBearing(

@@ -30,11 +30,11 @@ from loadflow.shaft import Concept
 from loadflow.shaft.in_films import ShaftInFilms
 from loadflow.shaft.reactions import films_dataset, shaft_in_films
 from loadflow.stages.bores import bores
-from loadflow.stages.film_of_bearing import follow
-from loadflow.stages.film_past import Past, after_past, past_of
-from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.films.of_bearing import follow
+from loadflow.stages.films.past import Past, after_past, past_of
+from loadflow.stages.films.temperature import mean_temperature
+from loadflow.stages.films.turning import SLOWEST
 from loadflow.stages.frames import from_film, to_film
-from loadflow.stages.turning import SLOWEST
 
 Floats = np.ndarray
 

@@ -17,7 +17,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.seats import without_seat
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.bores import against_bore
-from loadflow.stages.film_summary import summary
+from loadflow.stages.films.summary import summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.kept_samples import edges_of_cube, kept_samples
 from loadflow.stages.labelling import label, of_samples

@@ -21,7 +21,7 @@ from loadflow.scene.cases import Case
 from loadflow.scene.journal import Journal
 from loadflow.scene.lifetime_shares import seconds_per_year, shares_in
 from loadflow.scene.scene import Scene
-from loadflow.stages.film_of_bearing import shaft_line
+from loadflow.stages.films.of_bearing import shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.stages.labelling import label
 from loadflow.stages.stage import Stage, always

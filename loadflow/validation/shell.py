@@ -21,7 +21,7 @@ def plane_ring(order: int) -> tuple[float, float]:
     """
     from scipy.integrate import solve_bvp
 
-    from loadflow.journal.film.cylinder import bore_compliance
+    from loadflow.journal.film.shell.cylinder import bore_compliance
 
     inner, outer, modulus, nu = 1.5, 1.8, 210e9, 0.3
     shear = modulus / (2 * (1 + nu))
@@ -110,8 +110,8 @@ class Effect(NamedTuple):
 def reference_effect(wall: float = 0.15, modulus: float = 210e9) -> Effect:
     """The reference bearing at V = 24 m/s in a shell held outside; the source prints no shell."""
     from loadflow.journal import ThickShell
-    from loadflow.journal.film.compliance import compliance_of
-    from loadflow.journal.film.gap_mesh import shaped_mesh
+    from loadflow.journal.film.gap.shaped_mesh import shaped_mesh
+    from loadflow.journal.film.shell.compliance import compliance_of
 
     bearing, film = reference_bearing()
     shell = ThickShell(bearing.diameter + 2 * wall, modulus)

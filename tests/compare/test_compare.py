@@ -44,7 +44,7 @@ from loadflow.scene.candidate import Candidate
 from loadflow.scene.candidates import candidates_of
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.effects.registry import EFFECTS
-from loadflow.stages.turning import SLOWEST
+from loadflow.stages.films.turning import SLOWEST
 from loadflow.stages.wear import counts_of
 from loadflow.storage import plain
 from loadflow.studies.candidate import risks as candidate_risks

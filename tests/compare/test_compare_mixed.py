@@ -8,7 +8,7 @@ import xarray as xr
 
 from loadflow.quantities import HOURS_PER_YEAR
 from loadflow.scene.scene import make_scene
-from loadflow.stages.film_summary import mixed_friction
+from loadflow.stages.films.summary import mixed_friction
 from loadflow.studies.candidate.mixed import mixed_time
 from loadflow.studies.candidate.numbers import Finished
 from loadflow.studies.seeds.intervals import Groups

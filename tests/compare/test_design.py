@@ -26,7 +26,7 @@ from loadflow.scene.design import Design
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import make_scene, read_scene
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling_at_work import at_work
 from loadflow.studies.candidate.grown_films import fast_journal

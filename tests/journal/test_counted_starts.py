@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from loadflow.stages.film_summary import mixed_friction
+from loadflow.stages.films.summary import mixed_friction
 
 STEP = 1e-3  # s; sums of samples are integrals within a step
 LOST = 100.0  # W s/rad times the speed

@@ -8,7 +8,7 @@ from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import journal as stage
 from loadflow.stages.comparisons import compare
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 from loadflow.stages.journal import FILM
 from loadflow.stages.paths_again import answers_of_path, extremes_of_orbit
 

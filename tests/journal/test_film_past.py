@@ -5,14 +5,14 @@ import pytest
 import xarray as xr
 
 from loadflow.errors import SolverError, ValidityWarning
-from loadflow.journal.solvers.transient import OrbitStopped
+from loadflow.journal.solvers.motion.transient import OrbitStopped
 from loadflow.numerics.prediction import foretell_past
 from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
-from loadflow.stages import film_of_bearing
 from loadflow.stages import journal as stage
-from loadflow.stages.film_of_bearing import follow
-from loadflow.stages.film_past import AT_REST, Past, past_of
+from loadflow.stages.films import of_bearing as film_of_bearing
+from loadflow.stages.films.of_bearing import follow
+from loadflow.stages.films.past import AT_REST, Past, past_of
 
 STEP, SPEED = 0.05, 1.2
 CASE = Case(dlc="1.1", wind_speed=12.0, seed=1)

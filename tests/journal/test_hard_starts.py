@@ -27,8 +27,8 @@ from loadflow.journal import (
     Pump,
     Supply,
 )
-from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.shell.elastic_film import ElasticFilm
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
@@ -36,12 +36,12 @@ from loadflow.journal.questions import AtRest
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, statics
 from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.motion.transient import OrbitStopped
 from loadflow.journal.solvers.newton import no_film, solve_film
 from loadflow.journal.solvers.search import searches
 from loadflow.journal.solvers.sinking import solve_by_sinking
 from loadflow.journal.solvers.static_rows import equilibrium_rows
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.transient import OrbitStopped
 from loadflow.journal.warm_orbit import FEW
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact

@@ -15,7 +15,7 @@ from loadflow.journal import (
     Lubricant,
     ThickShell,
 )
-from loadflow.journal.film import shell_contact
+from loadflow.journal.film.shell import contact as shell_contact
 from loadflow.tribology import AsperityContact, hertz_line
 
 BEARING = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)

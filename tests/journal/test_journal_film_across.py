@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import solve_banded
 
 from loadflow.journal import Arc, Film, FilmHeat, JournalBearing, MassConserving, Sommerfeld
-from loadflow.journal.film.surface_temperatures import Surfaces
+from loadflow.journal.film.heat.surface_temperatures import Surfaces
 from loadflow.tribology import ExponentialOil
 from loadflow.validation.film_heat import ladder_bearing
 

@@ -163,7 +163,7 @@ def test_position_load_position_closes():
 
 def test_stiffness_is_the_slope_of_the_force_at_the_same_viscosities():
     """The temperatures are held while the shaft moves."""
-    from loadflow.journal.film.energy_equation import EnergyEquation
+    from loadflow.journal.film.heat.equation import EnergyEquation
     from loadflow.journal.line import Line
     from loadflow.journal.solvers.statics import Statics
     from loadflow.numerics.convergence import Limits

@@ -21,7 +21,7 @@ from loadflow.journal.cavitation import GasMixture
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.newton import solve_film
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.warm import energy_of
+from loadflow.journal.solvers.warm.position import energy_of
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact, ExponentialOil
 

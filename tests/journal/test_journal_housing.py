@@ -19,8 +19,8 @@ from loadflow.journal import (
     ThickShell,
     housing_influence,
 )
-from loadflow.journal.film.compliance import compliance_of
-from loadflow.journal.film.gap_mesh import shaped_mesh
+from loadflow.journal.film.gap.shaped_mesh import shaped_mesh
+from loadflow.journal.film.shell.compliance import compliance_of
 from loadflow.scene import read_scene
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)

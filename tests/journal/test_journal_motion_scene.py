@@ -9,7 +9,7 @@ from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import journal as stage
 from loadflow.stages.effects import film, film_tilt
-from loadflow.stages.film_of_bearing import aligned, follow
+from loadflow.stages.films.of_bearing import aligned, follow
 from loadflow.stages.journal import fast_film
 
 TIME = np.arange(0.0, 1.0, 0.05)

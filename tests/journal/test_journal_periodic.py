@@ -15,7 +15,7 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
 )
-from loadflow.journal.solvers import periodic
+from loadflow.journal.solvers.motion import periodic
 from loadflow.tribology.film import effective_speed
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)

@@ -17,7 +17,7 @@ from loadflow.journal import (
     Sommerfeld,
     Supply,
 )
-from loadflow.journal.film.mesh import build_mesh
+from loadflow.journal.film.gap.mesh import build_mesh
 from loadflow.journal.models import reduced
 from loadflow.journal.models.width_modes import Axial, lobatto
 from loadflow.validation.journal import PERIODIC_LOADS, reference_bearing, sines

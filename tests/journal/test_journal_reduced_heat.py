@@ -30,7 +30,7 @@ from loadflow.journal.models import grid as grid_rung
 from loadflow.journal.models.composed.rest_on_level import films_at_rest
 from loadflow.journal.models.composed.uneven import EVEN, Thickness
 from loadflow.journal.questions import AtRest
-from loadflow.journal.solvers.warm import coupled
+from loadflow.journal.solvers.warm.position import coupled
 from loadflow.numerics.convergence import Limits
 from loadflow.tribology import AsperityContact, ExponentialOil
 
@@ -336,7 +336,7 @@ def test_a_settled_stiffness_at_a_place_is_that_of_the_shaft_at_rest_there(more,
 
 @pytest.mark.parametrize(
     ("rung", "module"),
-    [("reduced", "models.composed.strip_film"), ("grid", "solvers.warm_rows")],
+    [("reduced", "models.composed.strip_film"), ("grid", "solvers.warm.rows")],
 )
 def test_a_settled_stiffness_of_which_one_film_has_no_temperatures_is_none(
     rung, module, monkeypatch

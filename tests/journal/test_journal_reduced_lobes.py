@@ -17,7 +17,7 @@ from loadflow.journal import (
     Sommerfeld,
     Turbulence,
 )
-from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap.layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.models._reduced_kernels import least_around
 from loadflow.journal.models.ring import lobed, ring_of, units_of

@@ -25,9 +25,9 @@ from loadflow.journal import (
     Turbulence,
     housing_influence,
 )
-from loadflow.journal.film.compliance import compliance_of
 from loadflow.journal.film.discretise import mesh_in_bore
-from loadflow.journal.film.gap_mesh import shaped_mesh
+from loadflow.journal.film.gap.shaped_mesh import shaped_mesh
+from loadflow.journal.film.shell.compliance import compliance_of
 from loadflow.journal.models.composed.shared_path import follow_shared
 from loadflow.journal.models.composed.shared_sides import Lying
 from loadflow.journal.models.composed.shell import _split

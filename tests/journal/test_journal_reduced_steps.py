@@ -8,7 +8,7 @@ from film_matrix import BEARING, asked
 
 from loadflow.errors import InputError
 from loadflow.journal import JournalBearing
-from loadflow.journal.solvers.step_size import SAFETY, foreseen, growth
+from loadflow.journal.solvers.motion.step_size import SAFETY, foreseen, growth
 
 SPEED, PERIOD = 100.0, 0.12
 TIME = np.linspace(0.0, PERIOD, 13)

@@ -19,9 +19,9 @@ from loadflow.journal import (
     Supply,
     TiltingPads,
 )
-from loadflow.journal.film.gap_mesh import shaped_mesh
-from loadflow.journal.film.ring_growth import RingExpansion, ring_factor, ring_motion, wall
-from loadflow.journal.film.warm_cylinder import bore_growth
+from loadflow.journal.film.gap.shaped_mesh import shaped_mesh
+from loadflow.journal.film.heat.ring_growth import RingExpansion, ring_factor, ring_motion, wall
+from loadflow.journal.film.heat.warm_cylinder import bore_growth
 from loadflow.scene.journal import make_journal
 from loadflow.tribology import ExponentialOil
 

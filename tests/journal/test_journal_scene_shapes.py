@@ -7,7 +7,7 @@ import loadflow as lf
 from loadflow.errors import InputError
 from loadflow.journal import Contour, Crown, Lobes
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 
 SCENE = """
 results = ["journal.film"]

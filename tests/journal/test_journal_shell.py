@@ -29,14 +29,14 @@ from loadflow.journal import (
     ThickShell,
     TiltingPads,
 )
-from loadflow.journal.film.cylinder import bore_compliance
+from loadflow.journal.film.shell.cylinder import bore_compliance
 from loadflow.journal.line import Line
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.path import solve_beyond_fold
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_of_bearing import equilibria, follow
+from loadflow.stages.films.of_bearing import equilibria, follow
 from loadflow.validation.shell import annular_seal, plane_ring, soft_arc
 
 BEARING = JournalBearing(diameter=3.0, width=2.25, relative_clearance=0.5e-3)
@@ -153,8 +153,8 @@ def test_influence_numbers_are_reciprocal_and_symmetric_about_three_planes():
 
 
 def _influence_numbers():
-    from loadflow.journal.film.compliance import compliance_of
-    from loadflow.journal.film.gap_mesh import shaped_mesh
+    from loadflow.journal.film.gap.shaped_mesh import shaped_mesh
+    from loadflow.journal.film.shell.compliance import compliance_of
 
     mesh = shaped_mesh(0.75, (36, 12), False, False, (), (), ())
     unit = np.eye(36 * 12).reshape(-1, 36, 12)

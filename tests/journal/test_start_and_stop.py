@@ -14,8 +14,8 @@ from loadflow.readers.names import SITUATIONS, label_from_name
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import journal as stage
-from loadflow.stages.film_summary import extremes, mixed_friction
-from loadflow.stages.turning import runs_throughout
+from loadflow.stages.films.summary import extremes, mixed_friction
+from loadflow.stages.films.turning import runs_throughout
 from loadflow.studies.verdicts.verdicts import verdicts
 from loadflow.wind import LOAD_CASES
 from loadflow.wind.cases import EVENTS_IN_WORDS, stands_or_starts

@@ -20,15 +20,15 @@ from loadflow.journal import (
     MassConserving,
     TiltingPads,
 )
-from loadflow.journal.film.pad_curve import pad_curve
+from loadflow.journal.film.gap.pad_curve import pad_curve
 from loadflow.journal.line import Line
 from loadflow.journal.models.composed import film as at
 from loadflow.journal.models.composed.path import Drive, march_of
 from loadflow.journal.questions import Steps
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import no_film
-from loadflow.journal.solvers.pad_estimate import on_pads
-from loadflow.journal.solvers.pads import balance_pads, solve_with_pads
+from loadflow.journal.solvers.pads.estimate import on_pads
+from loadflow.journal.solvers.pads.statics import balance_pads, solve_with_pads
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.convergence import Limits
 

@@ -12,9 +12,9 @@ from loadflow.scene import make_scene
 from loadflow.scene.cases import Case
 from loadflow.stages import paths_again
 from loadflow.stages.comparisons import compare
-from loadflow.stages.film_summary import extremes, warnings
+from loadflow.stages.films.summary import extremes, warnings
+from loadflow.stages.films.whirl import whirling
 from loadflow.stages.journal import orbit
-from loadflow.stages.whirl import whirling
 from loadflow.studies.candidate.numbers import Finished
 from loadflow.studies.candidate.quantities import QUANTITIES
 from loadflow.studies.compare.comparison import whirl

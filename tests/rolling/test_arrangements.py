@@ -20,7 +20,7 @@ from loadflow.rolling import (
     main_bearings,
     system_life,
 )
-from loadflow.running import report_page as report
+from loadflow.running.pages import report
 from loadflow.scene.cases import Case
 from loadflow.scene.scene import make_scene
 from loadflow.stages import rolling as stage

@@ -27,7 +27,7 @@ from loadflow.running.warm_up import (
 from loadflow.scene import make_scene, read_scene
 from loadflow.scene.cases import list_cases
 from loadflow.stages.effects.film_heat import HEAT
-from loadflow.stages.film_of_bearing import surely_carried
+from loadflow.stages.films.of_bearing import surely_carried
 from loadflow.stages.shaft import bearing_loads
 
 PIPELINES = Path(__file__).parents[2] / "pipelines"

@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from loadflow.running.seeds_page import _merge_table, answer
+from loadflow.running.pages.seeds import _merge_table, answer
 
 
 def verdicts_of(merge, together):

@@ -13,7 +13,7 @@ from loadflow.running.runner import run
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import TwoPoint
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages.film_support import film_model
+from loadflow.stages.films.support import film_model
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.registry import models
 from loadflow.stages.rolling_support import rolling_model

@@ -21,7 +21,7 @@ from loadflow.shaft import (
     coupled_loads,
     scaled_suspension,
 )
-from loadflow.stages.film_of_bearing import equilibria
+from loadflow.stages.films.of_bearing import equilibria
 from loadflow.stages.journal import film
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.shaft import bearing_loads as shaft_stage

@@ -18,8 +18,8 @@ from loadflow.shaft import bearing_loads as suspended
 from loadflow.shaft.reactions import shaft_in_films
 from loadflow.stages import journal, shaft
 from loadflow.stages import shaft_in_films as shaft_in_films_stage
-from loadflow.stages.film_past import AT_REST
-from loadflow.stages.film_support import film_model
+from loadflow.stages.films.past import AT_REST
+from loadflow.stages.films.support import film_model
 from loadflow.stages.frames import from_film, to_film
 from loadflow.stages.shaft_in_films import films_together, followed_together
 from loadflow.studies.candidate.factor import at_place, grown

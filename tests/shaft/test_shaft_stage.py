@@ -8,8 +8,8 @@ from loadflow.errors import InputError
 from loadflow.scene.scene import make_scene
 from loadflow.shaft import Beam, ShaftSection, TwoPoint
 from loadflow.shaft import bearing_loads as suspended
-from loadflow.stages.film_of_bearing import equilibria
-from loadflow.stages.film_support import film_model
+from loadflow.stages.films.of_bearing import equilibria
+from loadflow.stages.films.support import film_model
 from loadflow.stages.journal import film
 from loadflow.stages.reduction import reduced_loads
 from loadflow.stages.shaft import bearing_loads

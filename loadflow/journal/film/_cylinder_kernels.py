@@ -11,7 +11,6 @@ import numpy as np
 
 from loadflow.journal.cavitation import DLOAD, LOAD, SLACK
 from loadflow.journal.film._band_kernels import factorise, substitute
-from loadflow.journal.film._gap_kernels import cylinder_slopes, gap_coefficients
 from loadflow.journal.film._kernels import (
     HM,
     apply_law,
@@ -23,6 +22,7 @@ from loadflow.journal.film._kernels import (
     right_hand_sides,
 )
 from loadflow.journal.film.film import AXIS
+from loadflow.journal.film.gap._gap_kernels import cylinder_slopes, gap_coefficients
 from loadflow.numerics.convergence import EPS, is_small, rounding_level, stalled
 from loadflow.numerics.linked import LINKED, bare
 

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.film._kernels import E, G
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import BoreGap
-from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.film.gap.gap import BoreGap
+from loadflow.journal.film.surface.film import SurfaceFilm
 
 Array = NDArray[np.float64]
 Numbers = TypeVar("Numbers", float, Array)

@@ -9,32 +9,32 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import InputError
 from loadflow.journal.cavitation import CavitationLaw
-from loadflow.journal.film.asperity_load import (
+from loadflow.journal.film.feed import Feed
+from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.gap.asperity_load import (
     CylinderLoad,
     GrowingNodeLoad,
     NodeLoad,
     YieldingNodeLoad,
 )
-from loadflow.journal.film.compliance import Compliance, compliance_of
-from loadflow.journal.film.elastic import ElasticFilm
-from loadflow.journal.film.feed import Feed
-from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import CylindricalGap
-from loadflow.journal.film.gap_elastic import ElasticGap, GrowingGap
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
-from loadflow.journal.film.gap_rough import RoughElasticGap, RoughGap, RoughShapedGap
-from loadflow.journal.film.gap_shaped import ShapedGap
-from loadflow.journal.film.gap_warm import (
+from loadflow.journal.film.gap.elastic import ElasticGap, GrowingGap
+from loadflow.journal.film.gap.gap import CylindricalGap
+from loadflow.journal.film.gap.grooves import groove_marks, groove_numbers
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.mesh import Mesh, build_mesh
+from loadflow.journal.film.gap.rough import RoughElasticGap, RoughGap, RoughShapedGap
+from loadflow.journal.film.gap.shaped import ShapedGap
+from loadflow.journal.film.gap.shaped_mesh import ShapedMesh, crowded, relief_marks, shaped_mesh
+from loadflow.journal.film.gap.warm import (
     ElasticWarmGap,
     RoughElasticWarmGap,
     RoughWarmGap,
     WarmGap,
 )
 from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.journal.film.grooves import groove_marks, groove_numbers
-from loadflow.journal.film.mesh import Mesh, build_mesh
-from loadflow.journal.film.shell_contact import ShellContact, TouchedFilm
+from loadflow.journal.film.shell.compliance import Compliance, compliance_of
+from loadflow.journal.film.shell.contact import ShellContact, TouchedFilm
+from loadflow.journal.film.shell.elastic_film import ElasticFilm
 from loadflow.journal.film.thickening import Thickening
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry

@@ -12,8 +12,8 @@ from loadflow.journal.cavitation import DFILL, DLOAD, DP, FILL, LOAD, SLACK, Cav
 from loadflow.journal.film import _band_kernels as band_kernel
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film._kernels import HM
-from loadflow.journal.film.asperity_load import AsperityLoad, Touch
-from loadflow.journal.film.gap import Gap, turning_frame
+from loadflow.journal.film.gap.asperity_load import AsperityLoad, Touch
+from loadflow.journal.film.gap.gap import Gap, turning_frame
 from loadflow.journal.film.groove_pressure import Pockets
 from loadflow.journal.film.linearised import Linear, SingularFilm
 from loadflow.journal.film.thickening import Thickening

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film._kernels import largest_terms
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.gap import turning_frame
+from loadflow.journal.film.gap.gap import turning_frame
 from loadflow.numerics.convergence import EPS, rounding_level
 
 Array = NDArray[np.float64]

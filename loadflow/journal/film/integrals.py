@@ -13,8 +13,8 @@ from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.groove_pressure import UNSUPPLIED
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.asperity_load import AsperityLoad
     from loadflow.journal.film.film import DiscreteFilm
+    from loadflow.journal.film.gap.asperity_load import AsperityLoad
 
 Array = NDArray[np.float64]
 

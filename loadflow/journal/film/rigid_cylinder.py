@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import CylindricalGap
+from loadflow.journal.film.gap.gap import CylindricalGap
 from loadflow.journal.film.imbalance import flux_of
 
 Array = NDArray[np.float64]

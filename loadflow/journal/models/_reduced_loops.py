@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.journal.cavitation import FILL, LOAD
-from loadflow.journal.film import _gap_kernels
-from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap import _gap_kernels
+from loadflow.journal.film.gap.gap import KEPT
 from loadflow.journal.models._band_kernels import factorise, substitute
 from loadflow.journal.models._compile import inner, once, outer
 from loadflow.journal.models._reduced_kernels import (
@@ -36,7 +36,7 @@ from loadflow.journal.models.reduced_film import (
     Y,
 )
 from loadflow.journal.models.slow_heat import THIN, slow_heat
-from loadflow.journal.solvers import step_size
+from loadflow.journal.solvers.motion import step_size
 from loadflow.numerics import convergence
 
 STEP_LIMIT = 0.5  # change of the film over its pressure, up to which the shaft goes all the way

@@ -8,7 +8,7 @@ from typing import TypeVar, cast
 
 from loadflow.errors import SolverError
 from loadflow.journal.film_model import Film
-from loadflow.journal.solvers.transient import OrbitStopped
+from loadflow.journal.solvers.motion.transient import OrbitStopped
 
 _WORK = 3e6  # Newton steps times cells of all paths, beyond which none on more cells is begun
 

@@ -18,23 +18,23 @@ from loadflow.journal.line import Line
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.questions import AtPosition, AtRest, InMotion
 from loadflow.journal.rows import columns_of
-from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
-from loadflow.journal.solvers.periodic import (
+from loadflow.journal.solvers.motion.periodic import (
     Method,
     check_half_speed_whirl,
     check_period,
     close_orbit,
 )
-from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
-from loadflow.journal.solvers.transient import (
+from loadflow.journal.solvers.motion.start import orbit_film, orbit_start
+from loadflow.journal.solvers.motion.transient import (
     Marcher,
     march,
     mass_balance,
     orbit_dataset,
     orbit_row,
 )
-from loadflow.journal.solvers.warm_mean import mean_heat, with_temperatures
-from loadflow.journal.solvers.warm_rows import warm_fields, warm_rows
+from loadflow.journal.solvers.static_rows import equilibrium_rows, field_rows
+from loadflow.journal.solvers.warm.mean import mean_heat, with_temperatures
+from loadflow.journal.solvers.warm.rows import warm_fields, warm_rows
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.lines import on_lines
 from loadflow.numerics.one_thread import on_one_thread

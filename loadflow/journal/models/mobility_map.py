@@ -19,7 +19,7 @@ from loadflow.journal.models.grid import solve_on_grid
 from loadflow.journal.models.mobility import MobilityMap, scaled, tabulate
 from loadflow.journal.questions import AtRest, InMotion
 from loadflow.journal.rows import operating_columns, without_supply
-from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.journal.solvers.motion.transient import orbit_dataset
 from loadflow.quantities import FILM
 
 if TYPE_CHECKING:

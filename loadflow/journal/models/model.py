@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError
-from loadflow.journal.film.grooves import on_one_segment
-from loadflow.journal.film.ring_growth import OPEN, RUNS_ROUND
+from loadflow.journal.film.gap.grooves import on_one_segment
+from loadflow.journal.film.heat.ring_growth import OPEN, RUNS_ROUND
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line

@@ -21,8 +21,8 @@ from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.film.cell_error import Balance, resting_errors
 from loadflow.journal.film.discretise import crowds_around
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
@@ -51,9 +51,9 @@ from loadflow.journal.models.width_modes import half_width_nodes, lobatto
 from loadflow.journal.questions import AtPosition, AtRest, InMotion
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
-from loadflow.journal.solvers.periodic import check_half_speed_whirl, check_period
-from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
-from loadflow.journal.solvers.warm_mean import with_temperatures
+from loadflow.journal.solvers.motion.periodic import check_half_speed_whirl, check_period
+from loadflow.journal.solvers.motion.transient import OrbitStopped, orbit_dataset, stopped
+from loadflow.journal.solvers.warm.mean import with_temperatures
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:

@@ -10,15 +10,15 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.discretise import build_film
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_mesh import between_marks, cells_on
-from loadflow.journal.film.grooves import groove_marks
-from loadflow.journal.film.mesh import folded
+from loadflow.journal.film.gap.grooves import groove_marks
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.mesh import folded
+from loadflow.journal.film.gap.shaped_mesh import between_marks, cells_on
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.solvers.estimate import closed_form_position
 from loadflow.journal.solvers.messages import no_equilibrium, not_found
-from loadflow.journal.solvers.transient import OrbitStopped
+from loadflow.journal.solvers.motion.transient import OrbitStopped
 
 Array = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ from loadflow.journal.models import mobility_map
 from loadflow.journal.models.charts import CLOSED, TABLE, Chart, friction_power, width_of
 from loadflow.journal.models.mobility_map import advance
 from loadflow.journal.questions import AtRest, InMotion
-from loadflow.journal.solvers.transient import orbit_dataset
+from loadflow.journal.solvers.motion.transient import orbit_dataset
 from loadflow.numerics.splines import spline
 from loadflow.quantities import FILM
 

@@ -21,9 +21,9 @@ from loadflow.journal.film._cylinder_kernels import (
     small_enough,
     store,
 )
-from loadflow.journal.film._gap_kernels import along_the_gap
 from loadflow.journal.film._kernels import correct
-from loadflow.journal.film.gap import KEPT
+from loadflow.journal.film.gap._gap_kernels import along_the_gap
+from loadflow.journal.film.gap.gap import KEPT
 from loadflow.numerics.convergence import COARSEST
 from loadflow.numerics.linked import bare
 from loadflow.numerics.references import refer

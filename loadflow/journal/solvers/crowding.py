@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import BoreGap
+from loadflow.journal.film.gap.gap import BoreGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.solvers.load_stepping import APART, has_touched
 from loadflow.journal.solvers.newton import Solution

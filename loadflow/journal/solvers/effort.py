@@ -9,8 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import DiscreteFilm
+from loadflow.journal.film.shell.elastic_film import ElasticFilm
 
 _STEPS_OF_CELLS = 4e4  # Newton steps times cells, for each step that one solution may take
 _SINKING = 0.5  # of that, on top, for a shaft that sinks where no other way has found its film

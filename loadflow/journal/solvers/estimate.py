@@ -12,13 +12,13 @@ from numpy.typing import ArrayLike, NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.solvers.messages import narrowest_place
-from loadflow.journal.solvers.pad_estimate import on_pads
+from loadflow.journal.solvers.pads.estimate import on_pads
 from loadflow.tribology.film import butenschoen
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
-    from loadflow.journal.film.gap import BoreGap
-    from loadflow.journal.film.gap_shaped import ShapedGap
+    from loadflow.journal.film.gap.gap import BoreGap
+    from loadflow.journal.film.gap.shaped import ShapedGap
     from loadflow.journal.geometry import JournalGeometry
 
 Array = NDArray[np.float64]

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap import BoreGap
-from loadflow.journal.film.gap_elastic import GrowingGap
+from loadflow.journal.film.gap.elastic import GrowingGap
+from loadflow.journal.film.gap.gap import BoreGap
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution, solve_film
 

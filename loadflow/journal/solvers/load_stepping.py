@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.gap import KEPT
-from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
+from loadflow.journal.film.gap.gap import KEPT
+from loadflow.journal.film.gap.rough import RoughGap, RoughShapedGap
+from loadflow.journal.film.shell.elastic_film import ElasticFilm
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.gap.gap import BoreGap
 
 Array = NDArray[np.float64]
 

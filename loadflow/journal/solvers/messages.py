@@ -15,8 +15,8 @@ from loadflow.numerics.convergence import unresolved
 
 if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
-    from loadflow.journal.film.gap import BoreGap
-    from loadflow.journal.film.gap_shaped import ShapedGap
+    from loadflow.journal.film.gap.gap import BoreGap
+    from loadflow.journal.film.gap.shaped import ShapedGap
 
 Array = NDArray[np.float64]
 

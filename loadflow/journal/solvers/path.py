@@ -17,9 +17,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.elastic import ElasticFilm
 from loadflow.journal.film.film import EVERY, DiscreteFilm
 from loadflow.journal.film.linearised import Linear, SingularFilm
+from loadflow.journal.film.shell.elastic_film import ElasticFilm
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.load_stepping import (
     APART,
@@ -31,7 +31,7 @@ from loadflow.journal.solvers.load_stepping import (
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium, solve_film
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.gap import Gap
+    from loadflow.journal.film.gap.gap import Gap
 
 Array = NDArray[np.float64]
 

@@ -18,15 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.gap_rough import RoughGap, RoughShapedGap
+from loadflow.journal.film.gap.rough import RoughGap, RoughShapedGap
 from loadflow.journal.solvers.effort import Effort
-from loadflow.journal.solvers.history import Past
 from loadflow.journal.solvers.load_stepping import APART, meets
+from loadflow.journal.solvers.motion.history import Past
+from loadflow.journal.solvers.motion.transient import Marcher
 from loadflow.journal.solvers.newton import Solution, solve_equilibrium
-from loadflow.journal.solvers.transient import Marcher
 
 if TYPE_CHECKING:
-    from loadflow.journal.film.gap import BoreGap
+    from loadflow.journal.film.gap.gap import BoreGap
 
 Array = NDArray[np.float64]
 

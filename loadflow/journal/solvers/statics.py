@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from loadflow.errors import InputError
 from loadflow.journal.film.discretise import cylindrical_film, is_cylindrical, shaped_film
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.gap import BoreGap
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap.gap import BoreGap
+from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -42,8 +42,8 @@ from loadflow.journal.solvers.load_stepping import (
 from loadflow.journal.solvers.messages import touch_at, why_unsolved
 from loadflow.journal.solvers.newton import Solution, no_film, solve_equilibrium, solve_film
 from loadflow.journal.solvers.other_loads import solve_from_other_loads
-from loadflow.journal.solvers.pad_search import search_on_pads
-from loadflow.journal.solvers.pads import film_on_pads, unload_other_pads, with_further_pads
+from loadflow.journal.solvers.pads.search import search_on_pads
+from loadflow.journal.solvers.pads.statics import film_on_pads, unload_other_pads, with_further_pads
 from loadflow.journal.solvers.path import solve_beyond_fold, solve_elastic_in_steps
 from loadflow.journal.solvers.sinking import solve_by_sinking
 from loadflow.numerics.convergence import Limits

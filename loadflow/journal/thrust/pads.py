@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.feed import Feed
-from loadflow.journal.film.gap_surface import SurfaceGap, surface_mesh
 from loadflow.journal.film.groove_pressure import Pockets
-from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.film.surface.film import SurfaceFilm
+from loadflow.journal.film.surface.gap import SurfaceGap, surface_mesh
 from loadflow.journal.film_model import Control, Film
 from loadflow.journal.solvers.assembly.member import BODY, AssemblyState, Member
 from loadflow.journal.solvers.assembly.orbit import march

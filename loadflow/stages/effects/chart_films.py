@@ -10,7 +10,7 @@ from loadflow.journal import Equilibrium, JournalBearing, Lubricant
 from loadflow.journal.shapes import CYLINDER
 from loadflow.scene.journal import Journal
 from loadflow.shaft import BearingModel
-from loadflow.stages.film_support import TURN
+from loadflow.stages.films.support import TURN
 from loadflow.stages.frames import to_film
 
 Floats = np.ndarray

@@ -21,9 +21,9 @@ from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.effect import Effect, Sizes
 from loadflow.stages.effects.film_sizes import largest, no_bound_at_standstill
 from loadflow.stages.effects.situation import Floats, Situation
+from loadflow.stages.films.turning import carried_throughout
 from loadflow.stages.frames import from_film, moved_by, to_film
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import carried_throughout
 from loadflow.turbines import load_turbine
 
 _WAYS = np.array([[0, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]], dtype=float)

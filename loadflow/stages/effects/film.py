@@ -22,13 +22,13 @@ from loadflow.stages.effects.film_sizes import (
 )
 from loadflow.stages.effects.film_tilt import left_at_ends, thinnest_by
 from loadflow.stages.effects.situation import Situation
-from loadflow.stages.frames import to_film
-from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import (
+from loadflow.stages.films.turning import (
     always_turns,
     carried_throughout,
     comes_from_or_to_standstill,
 )
+from loadflow.stages.frames import to_film
+from loadflow.stages.stage import with_settings
 
 THREE_P = 0.2
 """Share of the largest deviation of a load that the blades make as they pass; NREL 5 MW, 12 m/s."""

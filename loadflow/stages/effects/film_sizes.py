@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from loadflow.scene.scene import Scene
 from loadflow.stages.effects.effect import UNKNOWN, UNSURE, Sizes
 from loadflow.stages.effects.situation import Film, Floats
-from loadflow.stages.turning import always_turns
+from loadflow.stages.films.turning import always_turns
 
 ANSWERS = ("eccentricity ratio", "minimum film", "maximum pressure", "friction power")
 

@@ -21,7 +21,7 @@ from loadflow.stages.effects.effect import Effect, Series, Sizes
 from loadflow.stages.effects.film_costs import cost_of
 from loadflow.stages.effects.film_sizes import ANSWERS, largest, no_bound_at_standstill
 from loadflow.stages.effects.situation import Film, Floats, Situation
-from loadflow.stages.film_of_bearing import aligned
+from loadflow.stages.films.of_bearing import aligned
 from loadflow.stages.stage import with_settings
 
 # --- film at the ends ------------------------------------------------------------------------

@@ -26,9 +26,9 @@ from loadflow.shaft import Beam, bearing_loads, pitch_loads, yaw_loads
 from loadflow.shaft.beam import ShaftSection
 from loadflow.stages.effects.chart_films import charted
 from loadflow.stages.effects.shared_loads import fed_back, held
+from loadflow.stages.films.turning import SLOWEST, is_parked
 from loadflow.stages.frames import to_film, to_rolling
 from loadflow.stages.swinging import root_loads
-from loadflow.stages.turning import SLOWEST, is_parked
 from loadflow.turbines import Turbine, load_turbine
 from loadflow.wind.cases import STANDING, event_of
 

@@ -21,8 +21,8 @@ from loadflow.stages.effects.film import ROUGHNESS, THREE_P
 from loadflow.stages.effects.film_heat import oil_of
 from loadflow.stages.effects.film_sizes import asperity_share
 from loadflow.stages.effects.situation import BearingLoad, Situation
+from loadflow.stages.films.turning import always_turns
 from loadflow.stages.stage import with_settings
-from loadflow.stages.turning import always_turns
 
 COSTS = {
     "motion": {"curve": 0.075},

@@ -13,9 +13,9 @@ import xarray as xr
 from loadflow.errors import SolverError
 from loadflow.rolling.friction import torques_beside
 from loadflow.scene.scene import Scene
+from loadflow.stages.films.turning import runs_throughout
 from loadflow.stages.friction import CATALOGUES, least_film_parameter
 from loadflow.stages.rolling_at_work import friction_options
-from loadflow.stages.turning import runs_throughout
 from loadflow.studies.candidate.margins import looked_at, solved
 
 _SLOW = 0.1  # share of the samples that counts as low speed

@@ -11,7 +11,7 @@ import xarray as xr
 from loadflow.journal.line import Line
 from loadflow.journal.models.model import why_not
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_of_bearing import equilibria, shaft_line
+from loadflow.stages.films.of_bearing import equilibria, shaft_line
 
 FACTORS = np.geomspace(1 / 8, 8, 25)
 """Factors on the loads among which that is sought with which a film reaches its limit."""

@@ -17,10 +17,10 @@ from loadflow.rolling import Lubrication, RollingBearing, modified_spectrum_life
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
-from loadflow.stages.film_of_bearing import equilibria, shaft_line
+from loadflow.stages.films.of_bearing import equilibria, shaft_line
+from loadflow.stages.films.turning import of_running
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
-from loadflow.stages.turning import of_running
 from loadflow.studies.candidate.deviations import oil_of
 from loadflow.studies.candidate.factor import (
     SAMPLES,

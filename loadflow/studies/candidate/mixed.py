@@ -12,7 +12,7 @@ import xarray as xr
 from loadflow.cube.hdf5 import read_groups
 from loadflow.journal.critical import Critical
 from loadflow.quantities import HOURS_PER_YEAR, percent
-from loadflow.stages.turning import runs_throughout, turning
+from loadflow.stages.films.turning import runs_throughout, turning
 from loadflow.studies.candidate.numbers import Finished, error_of, lifetime_mean
 from loadflow.studies.candidate.result import Number
 from loadflow.studies.seeds.intervals import Groups

@@ -13,7 +13,7 @@ import xarray as xr
 
 from loadflow.quantities import load_cases
 from loadflow.scene.scene import Scene
-from loadflow.stages.turning import of_running, runs_throughout
+from loadflow.stages.films.turning import of_running, runs_throughout
 from loadflow.studies.candidate.quantities import QUANTITIES
 from loadflow.studies.candidate.result import STARTS_ALONE, Number
 from loadflow.studies.lifetime.finished_run import NO_SHARE, known_shares

@@ -14,10 +14,10 @@ from loadflow.cube.hdf5 import read_variables
 from loadflow.quantities import percent
 from loadflow.scene.scene import Scene
 from loadflow.scene.wear import check_wear
+from loadflow.stages.films.turning import SLOWEST, runs_throughout
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.rolling import bearing_at_work
 from loadflow.stages.rolling_at_work import rest
-from loadflow.stages.turning import SLOWEST, runs_throughout
 from loadflow.stages.wear import counts_of
 from loadflow.studies.candidate.factor import reduced_samples
 from loadflow.studies.candidate.result import STARTS_ALONE, Number

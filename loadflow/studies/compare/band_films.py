@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal import Equilibrium
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_of_bearing import equilibria, shaft_line
+from loadflow.stages.films.of_bearing import equilibria, shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.studies.candidate.grown_films import fast_journal, pressed
 

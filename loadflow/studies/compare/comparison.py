@@ -18,8 +18,8 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
 from loadflow.scene.unused import uncounted_friction
-from loadflow.stages.film_summary import WHIRLS
-from loadflow.stages.turning import runs_throughout
+from loadflow.stages.films.summary import WHIRLS
+from loadflow.stages.films.turning import runs_throughout
 from loadflow.storage import plain
 from loadflow.studies.candidate.factor import Margin
 from loadflow.studies.candidate.friction import OWN_TORQUE, error_together, rolling_losses

@@ -13,7 +13,7 @@ from loadflow.errors import InputError, SolverError
 from loadflow.journal import BestCrown, best_crown
 from loadflow.scene.design import Crowning
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_of_bearing import shaft_line
+from loadflow.stages.films.of_bearing import shaft_line
 from loadflow.stages.frames import to_film
 from loadflow.studies.lifetime.load_spectrum import STANDING_SHARE
 

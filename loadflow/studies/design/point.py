@@ -18,7 +18,7 @@ from loadflow.scene.bearings import FurtherBearing, Rolling
 from loadflow.scene.friction import Friction
 from loadflow.scene.journal import Journal
 from loadflow.scene.scene import Candidate
-from loadflow.stages.film_of_bearing import surely_touching
+from loadflow.stages.films.of_bearing import surely_touching
 from loadflow.stages.rolling_at_work import at_work, friction_options, rest
 from loadflow.studies.candidate.factor import largest_factor
 from loadflow.studies.candidate.grown_films import FACTORS, GrownFilms, fast_journal, pressed

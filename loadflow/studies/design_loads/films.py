@@ -9,9 +9,9 @@ import xarray as xr
 
 from loadflow.scene.journal import Journal
 from loadflow.stages.design_samples import Governed, closed_samples, stationary_samples
-from loadflow.stages.film_summary import extremes, judged
+from loadflow.stages.films.summary import extremes, judged
+from loadflow.stages.films.turning import turning
 from loadflow.stages.journal import driven
-from loadflow.stages.turning import turning
 from loadflow.studies.bearing_series import BearingSeries
 from loadflow.studies.design_loads.tables import PeriodicPart
 

@@ -12,8 +12,8 @@ import xarray as xr
 from loadflow.cube import standing
 from loadflow.errors import SolverError
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_past import Past, after_past, past_of_speed
-from loadflow.stages.film_temperature import mean_temperature
+from loadflow.stages.films.past import Past, after_past, past_of_speed
+from loadflow.stages.films.temperature import mean_temperature
 from loadflow.stages.journal import fast_film
 from loadflow.studies.bearing_series import BearingSeries
 

@@ -23,7 +23,7 @@ from loadflow.reduction import (
 )
 from loadflow.report import Picture, Section, Table, load_figures, write_page
 from loadflow.scene.journal import Journal
-from loadflow.stages.film_response import film_response
+from loadflow.stages.films.response import film_response
 from loadflow.studies.bearing_series import BearingSeries
 
 AXES = ("−Fz (down)", "Fy (left)")

@@ -32,7 +32,7 @@ def journal_point(force: Load, speed: float, bearing: JournalBearing, film: Film
     loadflow.errors.SolverError
         No equilibrium.
     """
-    from loadflow.stages.film_kept import KEPT, WARM
+    from loadflow.stages.films.kept import KEPT, WARM
 
     s = bearing.equilibrium(force, speed, film)
     kept = KEPT | WARM if film.heat is not None else KEPT
@@ -73,8 +73,8 @@ def journal_series(path: Path, bearing: JournalBearing, film: Film) -> xr.Datase
         No load at all has an equilibrium.
     """
     from loadflow.reduction import read_parameter_file
-    from loadflow.stages.film_kept import KEPT, WARM
-    from loadflow.stages.film_summary import extremes
+    from loadflow.stages.films.kept import KEPT, WARM
+    from loadflow.stages.films.summary import extremes
     from loadflow.stages.labelling import of_samples
 
     reduced = read_parameter_file(path)

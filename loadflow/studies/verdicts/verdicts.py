@@ -13,7 +13,7 @@ from loadflow.scene.journal import Journal
 from loadflow.scene.limits import FilmLimits, JournalLimits
 from loadflow.scene.scene import Scene
 from loadflow.scene.thrust import AnyAxial
-from loadflow.stages.turning import runs_throughout
+from loadflow.stages.films.turning import runs_throughout
 from loadflow.studies.verdicts.parts import STATED, answered, source_of, worst_of
 from loadflow.studies.verdicts.rolling import of_rolling
 from loadflow.studies.verdicts.uncarried import SLIGHT, has_collar, uncarried

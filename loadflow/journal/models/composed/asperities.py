@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 
 from loadflow.journal.contact import Contact
-from loadflow.journal.film._rough_kernels import NO_CONTACT
-from loadflow.journal.film.asperity_load import CylinderLoad
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_rough import RoughGap, Roughness
-from loadflow.journal.film.grooves import groove_numbers
+from loadflow.journal.film.gap._rough_kernels import NO_CONTACT
+from loadflow.journal.film.gap.asperity_load import CylinderLoad
+from loadflow.journal.film.gap.grooves import groove_numbers
+from loadflow.journal.film.gap.rough import RoughGap, Roughness
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed.film import RIGID, Rough, Yielding

@@ -2,7 +2,7 @@
 
 A period is one march of the compiled loops from the state at its start: film, shaft and pads at the
 last two times. What comes back after a period is solved for as on the grid, see
-`loadflow.journal.solvers.periodic`. All of a path has as many points across as its samples ask for.
+`loadflow.journal.solvers.motion.periodic`. All of a path has as many points across as its samples ask for.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from loadflow.journal.models.composed.path import (
 )
 from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.journal.questions import InMotion
-from loadflow.journal.solvers.periodic import DEPTH, not_closed
+from loadflow.journal.solvers.motion.periodic import DEPTH, not_closed
 from loadflow.journal.solvers.statics import Statics
 from loadflow.numerics.anderson import Anderson
 from loadflow.numerics.convergence import is_small, rounding_level

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import SolverError, ValidityWarning
-from loadflow.journal.film.gap_warm import WarmGap
+from loadflow.journal.film.gap.warm import WarmGap
+from loadflow.journal.film.heat.temperatures import Warmth
 from loadflow.journal.film.linearised import Linear
-from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.models import grid
 from loadflow.journal.models.composed.heat_position import films_beside
@@ -27,12 +27,12 @@ from loadflow.journal.models.composed.strip_film import SHARP, Made, StripFilm, 
 from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.journal.questions import AtRest
 from loadflow.journal.rows import answered_rows, columns_of, operating_columns
+from loadflow.journal.solvers.motion.start import orbit_film
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.orbit_start import orbit_film
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
-from loadflow.journal.solvers.warm_mean import MeanHeat, SeriesLoads, in_balance, mean_heat
-from loadflow.journal.solvers.warm_rows import (
+from loadflow.journal.solvers.warm.mean import MeanHeat, SeriesLoads, in_balance, mean_heat
+from loadflow.journal.solvers.warm.position import WarmFilm, no_warmth, settled_stiffness
+from loadflow.journal.solvers.warm.rows import (
     heat_columns,
     in_grown_clearances,
     with_heat_bounds,

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.film.cell_error import warm_errors
+from loadflow.journal.film.heat.temperatures import Warmth
 from loadflow.journal.film.linearised import Linear
-from loadflow.journal.film.temperatures import Warmth
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.line import Line
 from loadflow.journal.models import grid
@@ -33,8 +33,8 @@ from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.journal.questions import AtPosition
 from loadflow.journal.rows import answered_rows, columns_of
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import WarmFilm, no_warmth, settled_stiffness
-from loadflow.journal.solvers.warm_rows import OVER_AREA, heat_columns, require_apart
+from loadflow.journal.solvers.warm.position import WarmFilm, no_warmth, settled_stiffness
+from loadflow.journal.solvers.warm.rows import OVER_AREA, heat_columns, require_apart
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 

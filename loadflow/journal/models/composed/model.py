@@ -13,9 +13,9 @@ from loadflow.errors import ValidityWarning
 from loadflow.journal.cavitation import FILL, LOAD
 from loadflow.journal.contact import Contact
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_rough import RoughGap
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.rough import RoughGap
+from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.film.integrals import Integrals, in_units
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry

@@ -12,12 +12,12 @@ from typing import NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.questions import AtRest
-from loadflow.journal.solvers.orbit_start import orbit_film, orbit_start
+from loadflow.journal.solvers.motion.start import orbit_film, orbit_start
 from loadflow.journal.solvers.statics import Statics
 
 Array = NDArray[np.float64]

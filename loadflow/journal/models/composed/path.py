@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap.layout import Bore
 from loadflow.journal.models.composed import film as at
 from loadflow.journal.models.composed.creep import Creep
 from loadflow.journal.models.composed.kernels._loops import solve
@@ -44,8 +44,8 @@ from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
 from loadflow.journal.questions import InMotion
 from loadflow.journal.solvers.load_stepping import TOUCHING
 from loadflow.journal.solvers.messages import touched
+from loadflow.journal.solvers.motion.transient import OrbitStopped, stopped
 from loadflow.journal.solvers.statics import Statics
-from loadflow.journal.solvers.transient import OrbitStopped, stopped
 
 Array = NDArray[np.float64]
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_layout import Bore, angles_between
+from loadflow.journal.film.gap.layout import Bore, angles_between
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed.film import Places
 from loadflow.journal.models.composed.uneven import Uneven

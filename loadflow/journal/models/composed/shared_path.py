@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.errors import InputError, SolverError
-from loadflow.journal.film.gap_layout import Bore
+from loadflow.journal.film.gap.layout import Bore
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
@@ -53,7 +53,7 @@ from loadflow.journal.models.slow_heat import (
     standing_states,
 )
 from loadflow.journal.questions import AtRest
-from loadflow.journal.solvers.transient import OrbitStopped, orbit_dataset, stopped
+from loadflow.journal.solvers.motion.transient import OrbitStopped, orbit_dataset, stopped
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:

@@ -8,14 +8,14 @@ from typing import NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_layout import Bore
-from loadflow.journal.film.gap_shaped import ShapedGap
+from loadflow.journal.film.gap.layout import Bore
+from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed.film import Composed, ComposedWork
 from loadflow.journal.models.composed.model import ComposedFilm
 from loadflow.journal.models.composed.pads import NO_PADS, Pads, PadWork, make_pad_work, pads_of
 from loadflow.journal.models.slow_heat import THIN, Warmth, slow_states
-from loadflow.journal.solvers.orbit_start import orbit_film
+from loadflow.journal.solvers.motion.start import orbit_film
 
 Array = NDArray[np.float64]
 

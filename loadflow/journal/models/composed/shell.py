@@ -13,9 +13,15 @@ from typing import NamedTuple, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.compliance import Compliance, Harmonic, Modal, Numbers, compliance_of
 from loadflow.journal.film.discretise import mesh_in_bore
-from loadflow.journal.film.mesh import Mesh
+from loadflow.journal.film.gap.mesh import Mesh
+from loadflow.journal.film.shell.compliance import (
+    Compliance,
+    Harmonic,
+    Modal,
+    Numbers,
+    compliance_of,
+)
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.composed.modes import NO_MODES, Modes

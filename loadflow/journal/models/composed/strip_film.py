@@ -1,6 +1,6 @@
 """Strips of a reduced film that its heat is balanced on: what the film carries and makes on them.
 
-The energy equation is that of the grid (`loadflow.journal.film.energy_equation`) on even strips
+The energy equation is that of the grid (`loadflow.journal.film.heat.equation`) on even strips
 around, as many as the grid has cells across: what mixes between cells of first order is then the
 same on both. What flows along each strip and over the bearing ends follows from the film, whose
 points across share it out by the width that they stand for, and what passes between strips from the
@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from loadflow.errors import SolverError
 from loadflow.journal.cavitation import FILL, LOAD, P
-from loadflow.journal.film.energy_balance import FRESH, Flows
-from loadflow.journal.film.grooves import groove_numbers
-from loadflow.journal.film.ring_growth import RingExpansion
-from loadflow.journal.film.temperatures import Temperatures, Warmth
+from loadflow.journal.film.gap.grooves import groove_numbers
+from loadflow.journal.film.heat.balance import FRESH, Flows
+from loadflow.journal.film.heat.ring_growth import RingExpansion
+from loadflow.journal.film.heat.temperatures import Temperatures, Warmth
 from loadflow.journal.heat import FilmHeat
 from loadflow.journal.models.composed.kernels._gap_kernels import (
     CUBE,
@@ -36,7 +36,7 @@ from loadflow.journal.models.composed.supply import parted_at
 from loadflow.journal.models.composed.uneven import Thickness
 from loadflow.journal.models.ring import Ring
 from loadflow.journal.solvers.newton import Solution
-from loadflow.journal.solvers.warm import WarmFilm, coupled
+from loadflow.journal.solvers.warm.position import WarmFilm, coupled
 
 Array = NDArray[np.float64]
 Kind = TypeVar("Kind")

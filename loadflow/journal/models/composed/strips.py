@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap_mesh import even_cells
+from loadflow.journal.film.gap.shaped_mesh import even_cells
 from loadflow.journal.models.width_modes import Nodes
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.film.feed import FeedTable
 from loadflow.journal.film.film import DiscreteFilm
-from loadflow.journal.film.grooves import groove_marks, groove_numbers
+from loadflow.journal.film.gap.grooves import groove_marks, groove_numbers
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.models.ring import Ring

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film import imbalance as of_film
-from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.film.surface.film import SurfaceFilm
 from loadflow.journal.solvers.assembly.member import AssemblyState, Member
 from loadflow.numerics.convergence import rounding_level
 

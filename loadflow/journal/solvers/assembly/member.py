@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.linearised import Linear
-from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.film.surface.film import SurfaceFilm
 
 Array = NDArray[np.float64]
 

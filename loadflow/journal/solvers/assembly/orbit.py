@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from loadflow.errors import InputError, SolverError
 from loadflow.journal.solvers.assembly.member import AssemblyState
 from loadflow.journal.solvers.assembly.solve import Assembly
-from loadflow.journal.solvers.history import backward_difference
+from loadflow.journal.solvers.motion.history import backward_difference
 from loadflow.numerics.convergence import Limits
 
 Array = NDArray[np.float64]

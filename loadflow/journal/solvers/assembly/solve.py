@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from loadflow.errors import SolverError
 from loadflow.journal.film import _kernels as kernel
 from loadflow.journal.film.linearised import SingularFilm
-from loadflow.journal.film.surface_film import SurfaceFilm
+from loadflow.journal.film.surface.film import SurfaceFilm
 from loadflow.journal.solvers._newton_kernels import QUADRATIC, STEP_LIMIT
 from loadflow.journal.solvers.assembly.balance import imbalance
 from loadflow.journal.solvers.assembly.member import BODY, AssemblyState, Member, MemberState

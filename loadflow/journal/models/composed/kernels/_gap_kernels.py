@@ -10,8 +10,8 @@ import numpy as np
 
 from loadflow.journal.cavitation import LOAD
 from loadflow.journal.film._kernels import apply_law
-from loadflow.journal.film._rough_kernels import conductance, dragged, mean_film
-from loadflow.journal.film._turbulence_kernels import ACROSS, ALONG, factor
+from loadflow.journal.film.gap._rough_kernels import conductance, dragged, mean_film
+from loadflow.journal.film.gap._turbulence_kernels import ACROSS, ALONG, factor
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models._full_kernels import keep_full
 from loadflow.journal.models._reduced_kernels import NO_GAP, least_around

@@ -8,8 +8,8 @@ from __future__ import annotations
 import numpy as np
 
 from loadflow.journal.cavitation import FILL, LOAD, P
-from loadflow.journal.film._rough_kernels import sheared
-from loadflow.journal.film._turbulence_kernels import SHEAR, factor
+from loadflow.journal.film.gap._rough_kernels import sheared
+from loadflow.journal.film.gap._turbulence_kernels import SHEAR, factor
 from loadflow.journal.models._compile import inner, once
 from loadflow.journal.models.composed import film as film_
 from loadflow.journal.models.composed.kernels._gap_kernels import (

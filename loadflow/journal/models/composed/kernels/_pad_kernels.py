@@ -7,7 +7,7 @@ import numpy as np
 from loadflow.journal.models._compile import inner
 from loadflow.journal.models.composed.kernels._gap_kernels import place
 from loadflow.journal.models.composed.kernels._loops import keep
-from loadflow.journal.solvers.moving_pads import TILT
+from loadflow.journal.solvers.motion.moving_pads import TILT
 
 # of `PadWork.tilts`; a function is compiled for each of Python's integers that it is called with
 BEFORE, LAST, NEXT, STEP = np.arange(4)

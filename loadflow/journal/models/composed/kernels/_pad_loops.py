@@ -58,7 +58,7 @@ from loadflow.journal.models.composed.kernels._pad_step_kernels import (
 )
 from loadflow.journal.models.composed.kernels._step_kernels import lay_at, longer_step
 from loadflow.journal.models.slow_heat import THIN, lighter, slow_heat
-from loadflow.journal.solvers.moving_pads import FLAT, LATER, NEAR
+from loadflow.journal.solvers.motion.moving_pads import FLAT, LATER, NEAR
 from loadflow.numerics.references import refer
 
 

@@ -49,7 +49,7 @@ from loadflow.journal.models.composed.kernels._supply_kernels import (
 from loadflow.journal.models.composed.kernels._touch_kernels import touch
 from loadflow.journal.models.composed.shared_sides import COORDINATES, SHAFT
 from loadflow.journal.models.slow_heat import lighter, slow_heat
-from loadflow.journal.solvers.moving_pads import LATER
+from loadflow.journal.solvers.motion.moving_pads import LATER
 from loadflow.numerics.references import refer
 
 

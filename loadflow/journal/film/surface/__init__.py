@@ -1,0 +1,1 @@
+"""The film on a plane ring or a cone."""

@@ -1,0 +1,1 @@
+"""The shaft in motion: orbits over given and adaptive steps, and closed orbits."""

@@ -1,0 +1,1 @@
+"""Tilting pads: where each pad comes to rest under the film."""

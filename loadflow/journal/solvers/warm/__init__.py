@@ -1,0 +1,1 @@
+"""Equilibrium of load and heat together."""

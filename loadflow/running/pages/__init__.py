@@ -1,0 +1,1 @@
+"""Pages of a run: the report, section by section, and its profile."""
