@@ -25,7 +25,10 @@ gc.set_threshold(50_000, 20, 20)
 # all commands are made anew for each call of the command line: half of the time of a small one
 typer.main.get_command = cache(typer.main.get_command)
 
-ROOMS = ("journal", "hard", "compare", "", "running", "wind", "shaft", "rolling", "rotor")
+ROOMS = (
+    "journal", "hard", "compare", "", "stages", "planning", "cli", "running", "wind", "shaft", "rolling",
+    "rotor",
+)  # fmt: skip
 """Folders of tests in the order in which they are taken; the others stand in the middle."""
 
 MIDDLE = ROOMS.index("running")
@@ -40,8 +43,7 @@ def pytest_collection_modifyitems(items):
     here = Path(__file__).parent
 
     def place(item):
-        room = item.path.parent.relative_to(here).as_posix()
-        room = "" if room == "." else room
+        room, *_ = item.path.parent.relative_to(here).parts or ("",)
         return ROOMS.index(room) if room in ROOMS else MIDDLE
 
     items.sort(key=place)

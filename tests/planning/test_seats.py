@@ -193,5 +193,5 @@ def test_where_no_bearing_aligns_itself_nothing_is_told_of_seats():
 def test_the_pipelines_tell_that_their_seats_are_not_known():
     from loadflow.scene.scene import read_scene
 
-    main = read_scene(Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml")
+    main = read_scene(Path(__file__).parents[2] / "pipelines" / "dlc_1_1.toml")
     assert "journal: seats of N, N2" in make_plan(main).left_out

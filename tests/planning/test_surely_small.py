@@ -21,7 +21,7 @@ from loadflow.stages.effects.rolling import RINGS
 from loadflow.stages.registry import STAGES
 from loadflow.stages.stage import with_settings
 
-QUICK = Path(__file__).parents[1] / "pipelines" / "quick_look.toml"
+QUICK = Path(__file__).parents[2] / "pipelines" / "quick_look.toml"
 
 
 class Asked(Exception):

@@ -26,7 +26,7 @@ from loadflow.running.runner import run_on
 from loadflow.scene.scene import make_scene, read_scene
 from loadflow.stages.films.of_bearing import equilibria
 
-PIPELINES = Path(__file__).parents[1] / "pipelines"
+PIPELINES = Path(__file__).parents[2] / "pipelines"
 
 
 def scene_of(cube, **keys):

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_journal_thickening import BARUS, BEARING, LAWS, LOAD, RISE, ROELANDS, SPEED
+from test_thickening import BARUS, BEARING, LAWS, LOAD, RISE, ROELANDS, SPEED
 
 from loadflow.journal import (
     Contact,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from test_journal_reduced_shells import BEARING, FEET, FILM, FLANGE, LOAD, REDUCED, SOFT
+from test_reduced_shells import BEARING, FEET, FILM, FLANGE, LOAD, REDUCED, SOFT
 
 from loadflow.journal import Contact, LocalShell, MatrixShell
 from loadflow.tribology import AsperityContact

@@ -16,7 +16,7 @@ from loadflow.stages.effects import thrust
 from loadflow.stages.effects.film import THREE_P
 from loadflow.stages.effects.situation import FEW, Situation, situation
 
-DLC_1_1 = Path(__file__).parents[1] / "pipelines" / "dlc_1_1.toml"
+DLC_1_1 = Path(__file__).parents[2] / "pipelines" / "dlc_1_1.toml"
 COLLAR = {
     "kind": "thrust", "play": 6e-4,
     "geometry": {
