@@ -26,8 +26,8 @@ gc.set_threshold(50_000, 20, 20)
 typer.main.get_command = cache(typer.main.get_command)
 
 ROOMS = (
-    "journal", "hard", "compare", "", "stages", "planning", "cli", "running", "wind", "shaft", "rolling",
-    "rotor",
+    "journal", "hard", "compare", "", "stages", "planning", "cli", "running", "wind", "shaft",
+    "rolling", "rotor",
 )  # fmt: skip
 """Folders of tests in the order in which they are taken; the others stand in the middle."""
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from reach import Module, Package
-from test_docs_site import TAUGHT
+from taught_pages import TAUGHT
 
 import loadflow
 

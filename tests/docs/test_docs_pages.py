@@ -122,7 +122,7 @@ def rows_of(title):
 
 @pytest.mark.parametrize("title", TABLES)
 def test_the_glossary_has_the_quantities_of_the_tables(title):
-    assert rows_of(title) == lines_of(title), "write them anew: python tests/docs/test_docs_pages.py"
+    assert rows_of(title) == lines_of(title), "write anew: python tests/docs/test_docs_pages.py"
 
 
 def write_glossary():

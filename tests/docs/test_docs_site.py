@@ -5,21 +5,17 @@ import shlex
 import subprocess
 import sys
 import tomllib
-from pathlib import Path
 
 import pytest
 import typer.main
+from taught_pages import DOCS, TAUGHT, TUTORIAL
 
-import loadflow
 from loadflow.cli import main
 from loadflow.cli.base import app
 from loadflow.scene.scene import read_scene
 
-ROOT = Path(loadflow.__file__).parent.parent
-DOCS = ROOT / "docs"
+ROOT = DOCS.parent
 COMMAND = typer.main.get_command(app)
-TUTORIAL = DOCS / "tutorial.md"
-TAUGHT = [TUTORIAL, *sorted((DOCS / "how-to").glob("*.md"))]
 
 
 def blocks(page, language):

@@ -15,16 +15,17 @@ from numpy.typing import NDArray
 HALF = 0.05
 """How near the speed of whirl over that of the shaft is to a half.
 
-Shafts either whirl or come to rest: of those of tests/journal/motion/test_whirl.py in films at 1 to 5 bar,
-the median is 0.496 to 0.498 or 0.00 to 0.01, so that it hardly matters how near.
+Shafts either whirl or come to rest: of those of tests/journal/motion/test_whirl.py in films at 1 to
+5 bar, the median is 0.496 to 0.498 or 0.00 to 0.01, so that it hardly matters how near.
 """
 
 FORGOTTEN = 6
 """Turns of a shaft after which it lies in its films as they have it, wherever it began.
 
-Of the shafts of tests/journal/motion/test_whirl.py, begun at 0.97 and at 0.5 of the clearance, 90° apart:
-1.2 MN at 1 bar and 3 MN at 5 bar lie within 2e-5 of the clearance of each other by then, 1.2 MN at
-2 bar within 6 %. What still whirls by then, as at 0.4 MN, lasts: they are 0.9 of it apart.
+Of the shafts of tests/journal/motion/test_whirl.py, begun at 0.97 and at 0.5 of the clearance, 90°
+apart: 1.2 MN at 1 bar and 3 MN at 5 bar lie within 2e-5 of the clearance of each other by then,
+1.2 MN at 2 bar within 6 %. What still whirls by then, as at 0.4 MN, lasts: they are 0.9 of it
+apart.
 """
 
 

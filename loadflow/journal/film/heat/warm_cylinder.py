@@ -1,10 +1,10 @@
 """A ring as wide as its bearing that is warm on its bore: finite elements, order by order around.
 
-On the mesh of `loadflow.journal.film.shell.cylinder` first the temperature of the wall, by Laplace's
-equation with the bore's temperature given, a transfer at the outside and no flow through the side
-faces; then its displacements, by the stress that this temperature would make were no part to move
-[Timoshenko and Goodier 1970, art. 151]. Slices that move each on its own, as in plane stress, are
-the limit of a narrow ring.
+On the mesh of `loadflow.journal.film.shell.cylinder` first the temperature of the wall, by
+Laplace's equation with the bore's temperature given, a transfer at the outside and no flow through
+the side faces; then its displacements, by the stress that this temperature would make were no part
+to move [Timoshenko and Goodier 1970, art. 151]. Slices that move each on its own, as in plane
+stress, are the limit of a narrow ring.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 A period is one march of the compiled loops from the state at its start: film, shaft and pads at the
 last two times. What comes back after a period is solved for as on the grid, see
-`loadflow.journal.solvers.motion.periodic`. All of a path has as many points across as its samples ask for.
+`loadflow.journal.solvers.motion.periodic`. All of a path has as many points across as its samples
+ask for.
 """
 
 from __future__ import annotations
