@@ -63,8 +63,10 @@ def warn_if_turbulent(
         )
 
 
-def warn_if_beyond_pressure(pressure: ArrayLike) -> None:
+def warn_if_beyond_pressure(pressure: ArrayLike, contact: bool = True) -> None:
     """Warn of films whose largest `pressure`, Pa, is beyond `LARGEST_PRESSURE`; NaN counts not.
+
+    Films that know `contact` of asperities are told that these may take a share.
 
     Warns
     -----
@@ -77,7 +79,8 @@ def warn_if_beyond_pressure(pressure: ArrayLike) -> None:
         warnings.warn(
             f"the pressure of {beyond} of {largest.size} films is beyond what oil and shell bear, "
             f"p_max = {np.nanmax(largest) / 1e6:,.0f} MPa > {LARGEST_PRESSURE / 1e6:.0f} MPa: "
-            "check load, clearance and roughness; `contact` lets asperities take a share",
+            "check load, clearance and roughness"
+            + ("; `contact` lets asperities take a share" if contact else ""),
             ValidityWarning,
             stacklevel=3,
         )

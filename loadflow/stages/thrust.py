@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from loadflow.errors import SolverError
+from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.thrust.collar_series import CollarPath
 from loadflow.journal.thrust.curves import CollarFilms
 from loadflow.quantities import table
@@ -17,7 +18,7 @@ from loadflow.scene.scene import Scene
 from loadflow.scene.seats import without_seat
 from loadflow.scene.thrust import AnyAxial
 from loadflow.stages.bores import against_bore
-from loadflow.stages.films.summary import summary
+from loadflow.stages.films.summary import beyond_pressure, summary
 from loadflow.stages.frames import to_rolling
 from loadflow.stages.kept_samples import edges_of_cube, kept_samples
 from loadflow.stages.labelling import label, of_samples
@@ -210,7 +211,8 @@ def solved(
     for k in open_:
         try:
             turned = None if tilt is None else tilt[k]
-            answer = bearing.solve(force[k], moment[k], float(speed[k]), turned)
+            with unresolved_counted():  # `summary` keeps the largest pressure
+                answer = bearing.solve(force[k], moment[k], float(speed[k]), turned)
         except SolverError as error:
             touching[k], why = bearing.touches(force[k], float(speed[k])), str(error)
             continue
@@ -371,6 +373,11 @@ def _needs(scene: Scene) -> tuple[str, ...]:
     return (*series, *(("reduction",) if reduced else ()))
 
 
+def warnings(tree: xr.DataTree) -> list[str]:
+    """Say in which load cases the pressure of a film is beyond what oil and pads bear."""
+    return [*beyond_pressure(tree, "thrust")]
+
+
 STAGE = Stage(
     "thrust",
     run=films,
@@ -379,6 +386,7 @@ STAGE = Stage(
     sections=always("thrust", "reduction"),
     models=(RUNGS,),
     summarise=summary,
+    warnings=warnings,
     work=_work,
     once=_tables,
     left_out=_left_out,

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from loadflow.errors import ValidityWarning
-from loadflow.journal import Film, JournalBearing, Lubricant
+from loadflow.journal import (
+    ConicalBearing,
+    ConicalPair,
+    Film,
+    JournalBearing,
+    Lubricant,
+    ThrustBearing,
+)
 from loadflow.journal.grid_bounds import unresolved_counted
 from loadflow.journal.validity import LARGEST_PRESSURE
 
@@ -29,6 +36,25 @@ def test_a_pressure_that_neither_oil_nor_shell_bears_is_told(rung, asked):
         found = ask()
     peaks = np.asarray(found.maximum_pressure)
     assert peaks[0] < LARGEST_PRESSURE < peaks[1]
+
+
+def test_pads_and_cones_are_warned_of_such_pressures_too():
+    film = Film(Lubricant(1.0), grid=(40, 10))
+    pads = ThrustBearing(6, 0.5, 1.0, pad_angle=0.785, taper=1e-4)
+    cone = ConicalBearing(half_angle=0.52, slant=(1.0, 1.5), clearance=1e-4)
+    pair = ConicalPair(cone, cone, distance=1.0, clearance=1e-4)
+    asked = [
+        partial(pads.equilibrium, 7e8, 10.0, film),
+        partial(pads.orbit, [0.0, 1e-3], [7e8, 7e8], 10.0, film, start=4e-6),
+        partial(cone.pressure, (9.9e-5, 0.0, 0.0), 100.0, film),
+        partial(cone.equilibrium, (0.0, 0.0, -1.5e9), 100.0, film, tilt=(6e-5, 0.0)),
+        partial(pair.pressure, (9.9e-5, 0.0, 0.0), 100.0, film),
+    ]
+    for ask in asked:
+        with pytest.warns(ValidityWarning, match="beyond what oil and shell bear") as caught:
+            found = ask()
+        assert np.max(np.asarray(found.maximum_pressure)) > LARGEST_PRESSURE
+        assert all("contact" not in str(one.message) for one in caught)
 
 
 def test_films_of_today_are_not_warned_of():

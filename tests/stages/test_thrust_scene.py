@@ -6,6 +6,7 @@ import tomllib
 
 import numpy as np
 import pytest
+import xarray as xr
 from pydantic import ValidationError
 from synthetic import cube_file
 
@@ -29,6 +30,8 @@ from loadflow.scene.cases import list_cases
 from loadflow.scene.scene import make_scene
 from loadflow.scene.thrust import Thrust
 from loadflow.scene.unused import unused_keys
+from loadflow.stages import journal as journal_stage
+from loadflow.stages import thrust as thrust_stage
 
 FILM = Film(Lubricant(0.2), Guembel(), inlet=None, grid=(20, 10), edge_pressure=1e5)
 LANDS = {"pads": 10, "inner_radius": 0.75, "outer_radius": 1.05, "pad_angle": 0.56, "taper": 6e-5}
@@ -414,3 +417,17 @@ def test_a_plan_refines_the_cells_of_a_curve_where_the_accuracy_asks_for_it(tmp_
     assert (chosen(0.002).rung, chosen(0.002).grid) == ("curve", (80, 40))
     held = chosen(0.002, grid=[40, 20])
     assert (held.rung, held.grid) == ("curve", (40, 20))
+
+
+@pytest.mark.parametrize(
+    "stage", [journal_stage.STAGE, thrust_stage.STAGE], ids=lambda stage: stage.name
+)
+def test_a_run_tells_where_the_pressure_is_beyond_what_oil_and_shell_bear(stage):
+    places = {"bearing": ["N"], "case": ["a", "b"]}
+    peaks = xr.DataArray([[0.2e9, 0.7e9]], dims=("bearing", "case"), coords=places)
+    tree = xr.DataTree.from_dict({stage.name: xr.Dataset({"largest_pressure": peaks})})
+    (told,) = stage.warnings(tree)
+    assert told.startswith(f"{stage.name}, bearing N: the pressure is beyond")
+    assert "in 1 of 2 load cases, 700 MPa in b" in told
+    assert ("contact" in told) == (stage.name == "journal")  # films of pads know none
+    assert not stage.warnings(xr.DataTree.from_dict({stage.name: xr.Dataset()}))

@@ -33,6 +33,7 @@ from loadflow.journal.thrust.pad_bearing import (
 )
 from loadflow.journal.thrust.pad_results import ConicalResult, common
 from loadflow.journal.thrust.pads import Pads, Pivot, even_pads, finite
+from loadflow.journal.validity import warn_if_beyond_pressure
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -166,6 +167,11 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
             Values that are not finite or misshapen; moment and tilt together.
         loadflow.errors.SolverError
             No film carries the force, with the reason.
+
+        Warns
+        -----
+        loadflow.errors.ValidityWarning
+            A pressure that oil and shell do not bear.
         """
         film, control = asked(film, more, control, keywords)
         load, speed = finite("force", force, 3), finite("speed", speed)
@@ -180,7 +186,9 @@ class ConicalBearing(PadBearing, ConicalFilms[ConicalResult]):
         ]
         state = self._balanced(assembly, starts, wanted, free, limits, speed)
         state = answered(head + self._hint(load), assembly, state, limits)
-        return self._result(assembly, state, speed)
+        found = self._result(assembly, state, speed)
+        warn_if_beyond_pressure(found.maximum_pressure, contact=False)
+        return found
 
     # --- inside ----------------------------------------------------------------------------------
     def _balanced(

@@ -29,6 +29,7 @@ from loadflow.journal.thrust.pad_bearing import (
 )
 from loadflow.journal.thrust.pad_results import ConicalResult, PairResult
 from loadflow.journal.thrust.pads import finite
+from loadflow.journal.validity import warn_if_beyond_pressure
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -135,6 +136,11 @@ class ConicalPair(ConicalFilms[PairResult]):
             Values that are not finite or misshapen; moment and tilt together.
         loadflow.errors.SolverError
             No films carry the load, with the reason.
+
+        Warns
+        -----
+        loadflow.errors.ValidityWarning
+            A pressure that oil and shell do not bear.
         """
         film, control = asked(film, more, control, keywords)
         if speed is None:
@@ -157,7 +163,9 @@ class ConicalPair(ConicalFilms[PairResult]):
         if not starts:
             raise SolverError(f"{head}: the shaft touches a cone at this tilt")
         state = self._balanced(assembly, starts, wanted, free, limits, speed)
-        return self._result(assembly, answered(head, assembly, state, limits), speed)
+        found = self._result(assembly, answered(head, assembly, state, limits), speed)
+        warn_if_beyond_pressure(found.maximum_pressure, contact=False)
+        return found
 
     # --- inside ----------------------------------------------------------------------------------
     def _balanced(

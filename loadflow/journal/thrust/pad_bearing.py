@@ -14,7 +14,9 @@ from loadflow.journal.lubricant import Lubricant
 from loadflow.journal.solvers.assembly.member import BODY, AssemblyState
 from loadflow.journal.solvers.assembly.orbit import series
 from loadflow.journal.solvers.assembly.solve import Assembly, raise_not_converged
+from loadflow.journal.thrust.pad_results import ConicalResult, PairResult
 from loadflow.journal.thrust.pads import Pads, check_film, finite
+from loadflow.journal.validity import warn_if_beyond_pressure
 from loadflow.numerics.convergence import Limits
 
 if TYPE_CHECKING:
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.int64]
-Answer = TypeVar("Answer")
+Answer = TypeVar("Answer", ConicalResult, PairResult)
 
 AT_REST = "without rotation and squeeze the film carries no load"
 SHIFTS = np.arange(3)
@@ -183,6 +185,7 @@ class PadBearing(ABC):
         loads = np.zeros((times.size, BODY))
         loads[:, self._shifts], loads[:, 3:] = self._signs * forces, moments
         path = self.row.orbit(assembly, state, times, loads, speeds, free, control)
+        warn_if_beyond_pressure(path["maximum_pressure"], contact=False)
         return self._named(path, place)
 
     _signs: ClassVar[float] = 1.0
@@ -262,4 +265,6 @@ class ConicalFilms(ABC, Generic[Answer]):
         limits = limits_of(control)
         state = assembly.solve(state, np.zeros(BODY), HELD, limits)
         head = f"e = {place.tolist()} m, ω = {speed:.6g} rad/s"
-        return self._result(assembly, answered(head, assembly, state, limits), speed)
+        found = self._result(assembly, answered(head, assembly, state, limits), speed)
+        warn_if_beyond_pressure(found.maximum_pressure, contact=False)
+        return found

@@ -28,6 +28,7 @@ from loadflow.journal.thrust.pad_bearing import (
 from loadflow.journal.thrust.pad_results import ThrustResult, common
 from loadflow.journal.thrust.pads import LIFTS, finite
 from loadflow.journal.thrust.warm_pads import balanced
+from loadflow.journal.validity import warn_if_beyond_pressure
 from loadflow.numerics.convergence import Limits
 from loadflow.numerics.fields import require
 
@@ -154,6 +155,11 @@ class PadThrust(PadBearing):
             Values that are not finite or out of range; moment and tilt together.
         loadflow.errors.SolverError
             No film carries the force, with the reason.
+
+        Warns
+        -----
+        loadflow.errors.ValidityWarning
+            A pressure that oil and shell do not bear.
         """
         film, control = asked(film, more, control, keywords, knows_heat=True)
         if film.heat is not None:
@@ -175,7 +181,9 @@ class PadThrust(PadBearing):
         place = np.array([0.0, 0.0, 0.0, *turned])
         start = self._held(assembly, place, 0.0, first, thick, speed, limits)
         state = assembly.equilibrium([start], wanted, free, limits)
-        return self._result(assembly, answered(head, assembly, state, limits), first, speed)
+        found = self._result(assembly, answered(head, assembly, state, limits), first, speed)
+        warn_if_beyond_pressure(found.maximum_pressure, contact=False)
+        return found
 
     # --- inside ----------------------------------------------------------------------------------
     def _place_of(self, found: ThrustResult) -> float:

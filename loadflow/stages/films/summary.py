@@ -182,11 +182,13 @@ def warnings(tree: xr.DataTree) -> list[str]:
     if "journal" not in tree.children:
         return []
     table = tree["journal"].to_dataset()
-    return [*_unresolved(table), *_whirls(table), *_beyond_pressure(table)]
+    hint = "journal.contact lets asperities take a share"
+    return [*_unresolved(table), *_whirls(table), *beyond_pressure(tree, "journal", hint)]
 
 
-def _beyond_pressure(table: xr.Dataset) -> Iterator[str]:
-    """Where the pressure is beyond what oil and shell bear."""
+def beyond_pressure(tree: xr.DataTree, stage: str, *hints: str) -> Iterator[str]:
+    """Where the pressure of films of a `stage` is beyond what oil and shell bear."""
+    table = tree[stage].to_dataset() if stage in tree.children else xr.Dataset()
     if "largest_pressure" not in table:
         return
     for bearing in table["bearing"].values:
@@ -195,10 +197,10 @@ def _beyond_pressure(table: xr.Dataset) -> Iterator[str]:
         if some:
             worst = int(peak.fillna(0.0).argmax("case"))
             yield (
-                f"journal, bearing {bearing}: the pressure is beyond what oil and shell bear, "
+                f"{stage}, bearing {bearing}: the pressure is beyond what oil and shell bear, "
                 f"{LARGEST_PRESSURE / 1e6:.0f} MPa, in {some} of {peak.size} load cases, "
-                f"{float(peak[worst]) / 1e6:,.0f} MPa in {table['case'].values[worst]}; check "
-                "loads and clearance; journal.contact lets asperities take a share"
+                f"{float(peak[worst]) / 1e6:,.0f} MPa in {table['case'].values[worst]}; "
+                + "; ".join(["check loads and clearance", *hints])
             )
 
 
