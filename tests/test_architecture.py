@@ -91,6 +91,14 @@ def test_no_folders_beside_each_other_import_each_other_in_a_circle():
     assert circles(graph) == set()
 
 
+def test_folders_part_where_they_lie_side_by_side_in_one_room():
+    film = "loadflow.journal.film"
+    sides = f"{film}.heat", f"{film}.gap"
+    assert folders_that_part(f"{sides[0]}.balance", f"{sides[1]}.warm") == sides
+    assert folders_that_part(f"{film}.heat.balance", f"{film}.film") == ()
+    assert folders_that_part(f"{film}.film", "loadflow.rolling.rings.beam") == ()
+
+
 def test_no_private_name_is_used_in_another_room():
     found = {
         f"{name}: {target}.{what}".rstrip(".")

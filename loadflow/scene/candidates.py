@@ -99,4 +99,6 @@ def _completed(part: Any, shared: dict[str, Any], place: str) -> Any:
         inner, outer = usual_rings(GEOMETRIES[kind](**part["geometry"]))
     except InputError as error:
         raise InputError(f"{place}.geometry: {error}") from None
+    except (KeyError, TypeError):  # a key too few or too many, which the scene names
+        return shared | part
     return {"inner_ring": inner.written, "outer_ring": outer.written} | shared | part

@@ -162,7 +162,7 @@ def _closing(options: Journal, bearing: str, reduced: xr.Dataset) -> xr.Dataset:
     held = options if warm is None else options.at_temperature(warm)
     film = held.film_model.closing()
     try:
-        with unresolved_counted():  # `summary` tells of them
+        with unresolved_counted():  # `films.summary` tells of them
             path = held.geometry.orbit(
                 reduced["time"].values,
                 force,

@@ -211,7 +211,7 @@ def solved(
     for k in open_:
         try:
             turned = None if tilt is None else tilt[k]
-            with unresolved_counted():  # `summary` keeps the largest pressure
+            with unresolved_counted():  # `films.summary` keeps the largest pressure
                 answer = bearing.solve(force[k], moment[k], float(speed[k]), turned)
         except SolverError as error:
             touching[k], why = bearing.touches(force[k], float(speed[k])), str(error)

@@ -351,6 +351,13 @@ def test_one_bearing_of_a_candidate_is_solved_and_not_the_one_that_a_scene_has_b
     assert "there are own.N" in err
 
 
+def test_a_scene_of_journal_bearings_alone_has_no_rolling_bearing_to_solve(loadflow, tmp_path):
+    scene = tmp_path / "own.toml"
+    scene.write_text('bearings = "journal-lemon"\n')
+    code, _, err = loadflow("rolling", "--scene", scene, "--force-x", 1e6)
+    assert (code, "this scene states no rolling bearing" in err) == (2, True)
+
+
 # -- what is refused --------------------------------------------------------------------------
 
 

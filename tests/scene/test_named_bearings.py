@@ -49,6 +49,24 @@ def test_a_new_arrangement_of_a_turbine_is_told_what_it_lacks(monkeypatch, chang
         assert {*read("nrel-5mw")["two"]["N"]} >= {"inner_ring", "outer_ring", "geometry"}
 
 
+@pytest.mark.parametrize(
+    ("bearing", "told"),
+    [
+        ({"kind": "roller"}, "geometry"),
+        ({"kind": "roller", "geometry": {"rollers": 44, "pitch_diameter": 1.4}}, "roller_diameter"),
+        ({"kind": "roller", "geometry": WIDE | {"rolers": 44}}, "rolers"),
+    ],
+)
+def test_a_key_too_few_or_too_many_of_a_new_arrangement_is_told_by_the_scene(
+    monkeypatch, bearing, told
+):
+    stated = {"title": "two", "source": "here", "N": bearing}
+    monkeypatch.setattr(candidates, "machine", lambda turbine: {"candidates": {"two": stated}})
+    found = candidates_of.__wrapped__("nrel-5mw")["two"]
+    with pytest.raises(InputError, match=told):
+        make_scene({"candidates": {"two": {"N": found["N"]}}})
+
+
 def test_a_collar_alone_is_asked_of_bearings_that_have_films_beside_it():
     named = {"bearings": "journal-thrust", "results": ["thrust.film"]}
     assert unused_keys(make_scene(named)) == {}

@@ -44,7 +44,7 @@ def follow(
     def path(past: Past) -> xr.Dataset:
         given: dict[str, Any] = past.before(series)
         film = options.film_model
-        with unresolved_counted():  # `summary` tells of them
+        with unresolved_counted():  # `films.summary` tells of them
             found = options.geometry.orbit(**given, film=film, start=start, control=_IN_MOTION)
         return found.isel(time=slice(past.steps, None))
 
@@ -104,7 +104,7 @@ def equilibria(
     lying: dict[str, Any] = {name: to_film(vectors) for name, vectors in line.items()}
     if near is not None:
         lying |= {"near": near, "heat_tolerance": _NEARLY_WARM}
-    with unresolved_counted():  # `summary` counts them
+    with unresolved_counted():  # `films.summary` counts them
         return options.geometry.equilibrium(
             to_film(force), speed, options.film_model, strict=False, **lying
         )

@@ -412,7 +412,7 @@ def _largest_pressure(part: FurtherBearing, samples: xr.Dataset) -> float:
         samples[name].transpose("sample", "axis").values for name in ("force", "moment")
     )
     answer = rest(part, force, moment, samples["speed"].values, strict=False)
-    return float(np.where(answer.converged, answer.maximum_pressure, 0.0).max())
+    return float(np.where(answer.converged, answer.maximum_pressure, np.inf).max())
 
 
 def _static(part: FurtherBearing, samples: xr.Dataset) -> float:

@@ -86,14 +86,14 @@ def slewing_bearing(
 def bearing_of_scene(path: Path, name: str | None) -> FurtherBearing:
     """Return a rolling bearing of a scene, its first if no `name` is given.
 
-    Those of a candidate are called by it and their place, ``two-spherical.N``. They come after
-    those of ``[bearings]``, and before those that a scene has which states none. With a mounting a
+    Those of a candidate are called by it and their place, ``two-spherical.N``, and come after those
+    of ``[bearings]``. A scene that states no bearing at all has its default one. With a mounting a
     bearing has its clearance at the temperature of the section ``[friction]``.
 
     Raises
     ------
     loadflow.errors.InputError
-        No such scene or bearing.
+        No such scene or bearing; journal bearings alone.
     """
     scene = read_scene(path)
     own = {
@@ -101,8 +101,11 @@ def bearing_of_scene(path: Path, name: str | None) -> FurtherBearing:
         for candidate, one in scene.candidates.items()
         for place, part in one.bearings["rolling"].items()
     }
-    usual, stated = scene.rolling.bearings, "rolling" in scene.model_fields_set
-    bearings = usual | own if stated or not own else own
+    stated = scene.rolling.bearings if "rolling" in scene.model_fields_set else {}
+    bearings = stated | own
+    if not bearings and (scene.candidates or "journal" in scene.model_fields_set):
+        raise InputError(f"{path}: this scene states no rolling bearing")
+    bearings = bearings or scene.rolling.bearings
     name = name or next(iter(bearings))
     if name not in bearings:
         raise InputError(f"{path}: no rolling bearing {name!r}; there are {', '.join(bearings)}")

@@ -1,1 +1,1 @@
-"""The gap of a film: cells, where the bore lies, its roughness and what widens it."""
+"""The gap of a film: cells, bore, grooves, roughness and what widens it; turbulence in it."""

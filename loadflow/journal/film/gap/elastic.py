@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from loadflow.journal.film.gap import _elastic_kernels as shell_kernel
+from loadflow.journal.film.gap import _elastic_kernels as kernel
 from loadflow.journal.film.gap.gap import KEPT
 from loadflow.journal.film.gap.layout import Bore
 from loadflow.journal.film.gap.shaped import ShapedGap
@@ -114,7 +114,7 @@ class ElasticGap(GrowingGap):
     def _evaluate(self) -> None:
         """Fill `coef` and its derivatives; where pressure widens the gap, of the upstream side."""
         super()._evaluate()
-        shell_kernel.upwind(
+        kernel.upwind(
             self._cell, self._cell_gap, *self.moved, self.surfaces, self.mesh.closed,
             self.advected, self.coef, self._by_x, self._by_y, self.blend,
         )  # fmt: skip

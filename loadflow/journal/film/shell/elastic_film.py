@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from loadflow.journal.cavitation import DLOAD, FILL, LOAD
 from loadflow.journal.film.film import DiscreteFilm, Factors
-from loadflow.journal.film.gap import _elastic_kernels as shell_kernel
+from loadflow.journal.film.gap import _elastic_kernels as kernel
 from loadflow.journal.film.gap.asperity_load import AsperityLoad, Touch, YieldingNodeLoad
 from loadflow.journal.film.gap.elastic import ElasticGap
 from loadflow.journal.film.shell.compliance import Compliance
@@ -147,7 +147,7 @@ class ElasticFilm(DiscreteFilm):
 
     def _spread(self, growth: Array, fields: Array) -> None:
         """Add what a `growth` (l, nx, nz), clearances, changes in the balance to `fields`."""
-        shell_kernel.spread(self.stencil, growth, fields)
+        kernel.spread(self.stencil, growth, fields)
 
     def _add_following(self, fields: Array) -> None:
         """Let the derivatives of the balance by position (m, nx, nz) have the gaps that follow."""
@@ -159,15 +159,13 @@ class ElasticFilm(DiscreteFilm):
         super()._assemble(mass, rate)
         mesh = self.mesh
         gap = self.gap
-        shell_kernel.gap_stencil(
+        kernel.gap_stencil(
             self.state, gap.coef, gap.blend, gap.own_share, *gap.nodes, gap.surfaces, mesh.dz,
             mesh.gz, mesh.closed, self.wedge, self.edges, self.slope * rate, self.fixed,
             gap.thinned, self.stencil,
         )  # fmt: skip
         growth = self._per_clearance * self.compliance.local * self.state[DLOAD]
-        shell_kernel.add_stencil(
-            self.stencil, growth, mesh.order, self.fixed, mesh.bandwidth, self.ab
-        )
+        kernel.add_stencil(self.stencil, growth, mesh.order, self.fixed, mesh.bandwidth, self.ab)
 
     def _solve(self, factors: Factors, columns: Array) -> None:
         """Solve for each of `columns` (l, n), in place.

@@ -1,1 +1,1 @@
-"""The film on a plane ring or a cone."""
+"""The film on a plane ring, a cone or a straight pad."""

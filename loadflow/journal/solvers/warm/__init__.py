@@ -1,1 +1,1 @@
-"""Equilibrium of load and heat together."""
+"""Film and heat together: at rest, and by the mean heat of a series."""
