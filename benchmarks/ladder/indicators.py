@@ -185,8 +185,8 @@ sized for, with other clearances, preloads, crowns, osculations and sections of 
 28 of these told that limits of the sized machines alone do not hold: in 4 of them rings changed six
 answers by more than was allowed for, at most by 1.03 of the largest force where 0.21 was indicated,
 as the estimates of force, pressure and life knew no preload. Of the next 28 three answers still lay
-outside, two of them as both ways in which a profile acts cancelled in the estimate. All is counted
-now. These 28, of a third seed, are kept from it (`python -m benchmarks.ladder.physics
+outside, two of them of rollers of which little was indicated. The limits were set anew after each.
+The 28 of this table, of a third seed, are kept from them (`python -m benchmarks.ladder.physics
 held_out`)."""
 
 

@@ -129,6 +129,7 @@ def test_a_shaft_sinks_no_longer_than_its_effort():
     fixed.raise_scale(load[None])
     fixed.film.set_speed(2.0)
     assert solve_by_sinking(fixed.film, load, np.array([0.5, 0.0]), 1e-10, 60, effort) is None
+    assert 0.0 <= effort.left <= 1.0
 
 
 def carries_its_load(number):

@@ -37,8 +37,8 @@ class Search:
     together : bool
         Whether other loads share the effort: only what is sought in vain is then of it, so that
         many loads that are found leave as much as few.
-    asked : float
-        What was left as the last film was asked for.
+    asked : tuple of float
+        What was left as the last film was asked for, to its search and to a shaft that sinks.
     last : Statics and Solution, optional
         Film found last, on its cells.
     why : tuple of float and str, optional
@@ -47,7 +47,7 @@ class Search:
 
     efforts: list[Effort] = field(default_factory=list)
     together: bool = False
-    asked: float = 0.0
+    asked: tuple[float, float] = (0.0, 0.0)
     last: tuple[Statics, Solution] | None = None
     why: tuple[float, str] | None = None
 
@@ -72,13 +72,13 @@ class Search:
         if not self.efforts:
             self.efforts.append(Effort.of(film, max_iterations))
         left = self.efforts[0]
-        left.before, self.asked = left.spent, left.left
+        left.before, self.asked = left.spent, (left.left, left.sinking)
         return left
 
     def give_back(self) -> None:
         """Leave to other loads that share the effort what the last film took, as it was found."""
         if self.together:
-            self.efforts[0].left = self.asked
+            self.efforts[0].left, self.efforts[0].sinking = self.asked
 
 
 def searches(count: int, together: bool = False) -> NDArray[np.object_]:

@@ -4,8 +4,8 @@ From where a film carries less to where it carries the load Newton's method know
 it jumps, and a soft shell or asperities throw it back. Time has one. A shaft that is let go sinks
 no faster than its film is squeezed out, a shell opens no faster than oil comes to fill it, and each
 implicit step begins near its end. As they grow, nothing is left of them but the film at rest
-[Kelley and Keyes 1998]. What is found so is stable; a shaft that does not come to rest meets its
-bore.
+[Kelley and Keyes 1998]. Such steps damp what would whirl, so that a film found so may be unstable,
+as any other at rest.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.film.film import EVERY, DiscreteFilm
-from loadflow.journal.film.gap.rough import RoughGap, RoughShapedGap
+from loadflow.journal.film.linearised import SingularFilm
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.load_stepping import APART, meets
 from loadflow.journal.solvers.motion.history import Past
@@ -27,6 +27,7 @@ from loadflow.journal.solvers.newton import Solution, solve_equilibrium
 
 if TYPE_CHECKING:
     from loadflow.journal.film.gap.gap import BoreGap
+    from loadflow.journal.film.gap.rough import RoughGap, RoughShapedGap
 
 Array = NDArray[np.float64]
 
@@ -38,8 +39,7 @@ _LONGER, _LONGEST, _CUT = 1.5, 4.0, 0.2  # growth of a step after one that was c
 _CUTS = 12  # after which the way is given up
 _NEARLY = 0.01  # of the narrowest gap, a step below which the shaft is nearly at rest
 _ALL = math.nextafter(1.0, 0.0)
-_CLOSING = 1e-3  # gap, in clearances, from which steps lead to the bore however short they are
-_ENDING = 0.1  # the same of the depth to which rough surfaces may come
+_ENDING = 0.1  # of the depth to which rough surfaces may come, from which steps lead to the bore
 
 
 def solve_by_sinking(
@@ -51,7 +51,7 @@ def solve_by_sinking(
     effort: Effort,
     free: slice | NDArray[np.int64] = EVERY,
 ) -> Solution | None:
-    """As `solve_equilibrium`, where a shaft comes to rest that is let go above `position`.
+    """As `solve_equilibrium`, where a rough shaft comes to rest that is let go above `position`.
 
     None: not found this way. A shaft that sinks to its bore is not converged, and its `residual`
     the part of the load that nothing carries there. It takes no more than the `effort`.
@@ -62,11 +62,17 @@ def solve_by_sinking(
     place = wide + _HIGH * (position - wide)
     if not film.gap.narrowest(place) > 0.0:
         return None
-    marcher = Marcher(film, max(tolerance, _ENOUGH), film.newton_steps(_NEWTON), free=free)
+    most = film.newton_steps(_NEWTON)
+    marcher = Marcher(film, max(tolerance, _ENOUGH), most, free=free)
     past = marcher.past(0.0, film.start(), place, film.gap.pads[:0])
-    step = _first_step(film, force, past, moving)
+    try:
+        step = _first_step(film, force, past, moving)
+    except SingularFilm:
+        return None
     growth, cuts, spent, left = _LONGEST, 0, 0, math.inf
     for _ in range(_STEPS):
+        if effort.steps(film) < most:  # the next step in time may take as many
+            effort.left = 0.0
         if cuts > _CUTS or effort.over or not math.isfinite(step):
             break
         trial = marcher.attempt([past], step, force)
@@ -74,7 +80,9 @@ def solve_by_sinking(
         spent += trial.iterations
         met = _touches(film, trial.position)
         if met and left < _nearly(film):
-            return replace(trial, converged=False, residual=_missing(film, past, force, moving))
+            missing = _missing(film, past, force, moving)
+            film.place(trial.u, trial.position)  # the gap by which it is judged
+            return replace(trial, converged=False, residual=missing)
         if met or not trial.converged:
             step, growth, cuts = _CUT * step, _LONGER, cuts + 1
             continue
@@ -83,7 +91,7 @@ def solve_by_sinking(
         step, growth = growth * step, min(growth * _LONGER, _LONGEST)
         left = _left(film, past.position)
         if way < _NEARLY * max(film.gap.narrowest(past.position), film.gap.roughness):
-            limits = tolerance, max_iterations
+            limits = tolerance, min(max_iterations, effort.steps(film))
             found = solve_equilibrium(film, force, past.u, past.position, *limits, free=free)
             effort.take(film, found.iterations)
             spent += found.iterations
@@ -104,12 +112,7 @@ def _first_step(film: DiscreteFilm, force: Array, past: Past, moving: NDArray[np
 
 def _left(film: DiscreteFilm, position: Array) -> float:
     """Way to the bore, or to the end of its law of contact, clearances."""
-    if film.elastic:
-        return film.clearance_left(position)
-    gap = film.gap
-    if isinstance(gap, (RoughGap, RoughShapedGap)):
-        return gap.until_end(position)
-    return gap.narrowest(position)
+    return film.clearance_left(position) if film.elastic else _rough(film).until_end(position)
 
 
 def _touches(film: DiscreteFilm, position: Array) -> bool:
@@ -119,10 +122,11 @@ def _touches(film: DiscreteFilm, position: Array) -> bool:
 
 def _nearly(film: DiscreteFilm) -> float:
     """Way that is left to the bore, clearances, from which steps lead there however short."""
-    if film.contact is None:
-        return _CLOSING
-    rough = cast("RoughGap", film.gap).rough
-    return _ENDING * max(rough.deepest, film.gap.roughness)
+    return _ENDING * max(_rough(film).rough.deepest, film.gap.roughness)
+
+
+def _rough(film: DiscreteFilm) -> RoughGap | RoughShapedGap:
+    return cast("RoughGap | RoughShapedGap", film.gap)
 
 
 def _missing(film: DiscreteFilm, past: Past, force: Array, moving: NDArray[np.int64]) -> float:

@@ -130,16 +130,37 @@ class Statics:
         omega: float,
         last: Solution | None,
         control: Limits,
-        meshes: int = _CROWDED,
         effort: Effort | None = None,
     ) -> tuple[Statics, Solution]:
         """Equilibrium under load number `index`, and the film it was found on.
+
+        Where no cells lead to one the shaft is let go in its film, on those that come first.
+        """
+        effort = effort or Effort.of(self.film, control.max_iterations)
+        used, solution = self._on_any_cells(index, load, omega, last, control, _CROWDED, effort)
+        carries = self._carries(self._force(index, load))
+        if solution.converged or used._told(solution) or not carries:
+            return used, solution
+        first = self.finer if self.can_refine else self
+        return first._sunk(index, load, omega, control, effort, (used, solution))
+
+    def _on_any_cells(
+        self,
+        index: int,
+        load: Array,
+        omega: float,
+        last: Solution | None,
+        control: Limits,
+        meshes: int,
+        effort: Effort,
+    ) -> tuple[Statics, Solution]:
+        """As `resolve`, by Newton's method and steps.
 
         Cells that do not resolve the gap are graded. Where the gap closes between the cells of a
         mesh fixed to the shell there may be no equilibrium on it, so that cells crowd there, on up
         to `meshes` others, as long as the `effort` lasts.
         """
-        refine, effort = self.can_refine, effort or Effort.of(self.film, control.max_iterations)
+        refine = self.can_refine
         others = self.film.elastic and meshes > 0 and may_double(self.options, omega)
         effort.kept = _KEPT * effort.left if others else 0.0
         solution = self.solve(index, load, omega, last, control, not refine, effort)
@@ -148,14 +169,14 @@ class Statics:
         if (solution.converged and resolved) or not self._carries(self._force(index, load)):
             return self, solution
         if refine:
-            return self.finer.resolve(index, load, omega, None, control, meshes, effort)
+            return self.finer._on_any_cells(index, load, omega, None, control, meshes, effort)
         film = self.film
         given = film, self.gap, self.options, self.crowd, solution
         cells = other_cells(*given) if meshes and not effort.over else None
         if cells is None:
             return self, solution
         left = meshes if self.gap.axisymmetric else meshes - 1
-        found = self._on(*cells).resolve(index, load, omega, None, control, left, effort)
+        found = self._on(*cells)._on_any_cells(index, load, omega, None, control, left, effort)
         # a search that was given up says nothing: where the shaft has touched on these cells stands
         return (self, solution) if found[1].given_up and has_touched(film, solution) else found
 
@@ -205,8 +226,6 @@ class Statics:
             cut, effort.kept = effort.over, kept
             if turns and not (soft or ended(film, solution, effort)):
                 solution = self._from_standing(*given) or solution
-        if in_steps and stands(film) and not (solution.converged or self._told(solution)):
-            solution = self._sunk(force, estimate, limits, effort, solution)
         found = self._checked(replace(solution, estimate=estimate, iterations=effort.taken))
         return replace(found, given_up=(cut or effort.over) and not found.converged)
 
@@ -413,19 +432,29 @@ class Statics:
 
     def _sunk(
         self,
-        force: Array,
-        estimate: Array,
-        limits: tuple[float, int],
+        index: int,
+        load: Array,
+        omega: float,
+        control: Limits,
         effort: Effort,
-        reached: Solution,
-    ) -> Solution:
+        reached: tuple[Statics, Solution],
+    ) -> tuple[Statics, Solution]:
         """Where the shaft comes to rest that is let go, or meets its bore; or what is `reached`."""
-        film, own = self.film, Effort(effort.sinking)
+        film, own, (used, solution) = self.film, Effort(effort.sinking), reached
+        film.set_speed(omega)
+        if not stands(film):
+            return reached
+        limits = control.tolerance, film.newton_steps(control.max_iterations)
+        near, of_shaft = self.line.start(index), (self._held(index), self.shaft)
+        estimate = first_position(self.bearing, film, self.gap, load, *of_shaft, near)
+        force = self._force(index, load)
         found = solve_by_sinking(film, force, estimate, *limits, own, self.shaft)
         effort.sinking, effort.spent = own.left, effort.spent + own.spent
-        if found is None and np.isfinite(reached.position).all():
-            film.place(reached.u, reached.position)  # the gap by which it is judged
-        return found or reached
+        if found is not None:
+            return self, self._checked(replace(found, estimate=estimate, iterations=effort.taken))
+        if used is self and np.isfinite(solution.position).all():
+            film.place(solution.u, solution.position)  # the gap by which it is judged
+        return used, replace(solution, given_up=solution.given_up or own.over)
 
     def _in_steps(
         self,

@@ -27,8 +27,8 @@ ROLLER_SIZES = {"maximum force": 0.21, "maximum pressure": 0.065, "life": 0.28}
 pressure more, as sized pairs that walls hold lose up to 0.077 (docs/physics.md)."""
 
 LOSSES = {"friction power": 0.2, "film parameter": 0.15, "slip": 0.2}
-"""What free rings change of friction: the most of preloaded pairs under load, and of others, in 113
-machines, loads and wind speeds (docs/physics.md). Of a slip, which is a share, as it is."""
+"""What free rings change of friction: preloaded pairs under load, and others, by 113 machines,
+loads and wind speeds (docs/physics.md), within `larger` of the effect. Of a slip as it is."""
 
 PRELOADED = {
     "maximum force": 0.6,

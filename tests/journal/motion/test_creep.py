@@ -131,7 +131,7 @@ def test_all_ways_to_a_creeping_film_share_one_count_of_work(monkeypatch):
 
     found, spent = sought()
     assert found > 0
-    monkeypatch.setattr(composed_creep, "_WORK", 30.0 * model.work.u.size)
+    monkeypatch.setattr(composed_creep, "_WORK", 0.5 * model.work.u.size)
     assert sought() == (0, 30)
     assert spent > 30
 

@@ -34,7 +34,7 @@ _LEAST = 1.01  # ratio of two speeds below which a step is given up
 _TRIES = 3  # films of a rigid bore, each where the last one has left the shaft
 _FIRMER, _FIRMEST = 0.25, 1e-3  # next step of the compliance, and share of it that is given up
 _BUDGET = 10  # Newton steps of a way, in multiples of those of a solution
-_WORK = 6e5  # Newton steps times points of all ways, of two or three microseconds each
+_WORK = 1e4  # points times solutions of all ways, each of as many Newton steps as may be asked
 _OVERLAP = 1e-3  # first overlap of a standing shaft, clearances; the next ones are twice as large
 _DEEPEST = 20  # of these
 _PRESSED = 0.02  # of its load, to which a standing shaft is pressed by its place alone
@@ -214,7 +214,7 @@ class Creep:
         Not converged where nothing is left of what all ways may take.
         """
         row = np.zeros((1, self.model.columns))
-        left = int(_WORK / self.model.work.u.size) - self.spent
+        left = int(_WORK * self.most / self.model.work.u.size) - self.spent
         if left <= 0:
             return row[0]
         most = min(most, left)
