@@ -30,7 +30,8 @@ def _changes(part: FurtherBearing, load: BearingLoad) -> Sizes:
     life = sliced.damage(of_slices) / whole.damage(of_rollers)
     ratios = force[hard:], pressure[hard:], life  # largest ones are those of the largest load
     sizes = {name: float(np.abs(ratio - 1.0).max()) for name, ratio in zip(CONTACTS, ratios)}
-    sizes = {name: max(size, EVEN_SO.get(name, 0.0)) for name, size in sizes.items()}
+    least = EVEN_SO if np.any(bearing.profile_drop) else {}
+    sizes = {name: max(size, least.get(name, 0.0)) for name, size in sizes.items()}
     return sizes | (TAPERED_LOSSES if bearing.rib_guided else OTHER_LOSSES)
 
 
@@ -43,10 +44,10 @@ has 34 % of the power. Without the drop of their profile all rollers of preloade
 roll along and hardly slip."""
 
 EVEN_SO = {"maximum force": 0.01, "life": 0.55}
-"""What whole rollers are taken to change at least. Two ways in which a profile acts, to its middle
-and from preload, may cancel in the estimate but not in the bearing: where less was indicated, drawn
-machines lost up to 5.4 % of the force and 3.7 times the life (docs/physics.md), which these times
-`larger` of the effect cover."""
+"""What whole rollers are taken to change at least of rows with a profile. Two ways in which it
+acts, to its middle and from preload, may cancel in the estimate but not in the bearing: where less
+was indicated, drawn machines lost up to 5.4 % of the force and 3.7 times the life
+(docs/physics.md), which these times `larger` of the effect cover."""
 
 CONTACTS = ("maximum force", "maximum pressure", "life")
 QUANTITIES = (*CONTACTS, *OTHER_LOSSES)
