@@ -71,10 +71,11 @@ def solve_by_sinking(
         return None
     growth, cuts, spent, left = _LONGEST, 0, 0, math.inf
     for _ in range(_STEPS):
-        if effort.steps(film) < most:  # the next step in time may take as many
+        if effort.steps(film) < 1:
             effort.left = 0.0
         if cuts > _CUTS or effort.over or not math.isfinite(step):
             break
+        marcher = replace(marcher, max_iterations=min(most, effort.steps(film)))
         trial = marcher.attempt([past], step, force)
         effort.take(film, trial.iterations)
         spent += trial.iterations
