@@ -15,7 +15,7 @@ from typing import Any
 
 from benchmarks.common import arguments, head, put, row
 from benchmarks.ladder.physics import PAGE, kept_so_far
-from benchmarks.ladder.physics_held_out import HELD_OUT, SEEN, drawn
+from benchmarks.ladder.physics_drawn import HELD_OUT, SEEN, drawn
 from benchmarks.ladder.physics_losses import machines
 from benchmarks.ladder.physics_scenes import PER_PLACE, jobs_asked, seated, ten_scenes
 from loadflow.planning.effects import concerned

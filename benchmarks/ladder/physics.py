@@ -22,7 +22,7 @@ from typing import Any
 
 from benchmarks.common import ROOT, arguments, put
 from benchmarks.ladder.__main__ import DOC, WHOLE_RUNS
-from benchmarks.ladder.physics_held_out import held_out, seen
+from benchmarks.ladder.physics_drawn import held_out, seen
 from benchmarks.ladder.physics_losses import loss_table, losses
 from benchmarks.ladder.physics_page import (
     draw_front,

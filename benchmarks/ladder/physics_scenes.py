@@ -12,7 +12,7 @@ from typing import Any
 
 from benchmarks.common import ROOT
 from benchmarks.ladder import physics_sizes as parts
-from benchmarks.ladder.physics_held_out import HELD_OUT, SEEN, drawn
+from benchmarks.ladder.physics_drawn import HELD_OUT, SEEN, drawn
 from benchmarks.ladder.physics_losses import machines
 from benchmarks.ladder.physics_sizes import SHORT, STOP, TURBINES, scene_of
 from benchmarks.ladder.whole_runs import whole_runs

@@ -16,6 +16,7 @@ from loadflow.journal.film.gap.shaped import ShapedGap
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.estimate import first_position
 from loadflow.journal.solvers.load_stepping import APART, has_touched
 from loadflow.journal.solvers.messages import why_unsolved
 from loadflow.journal.solvers.newton import Solution
@@ -110,6 +111,11 @@ class FilmOnCells:
         return self.gap.held(
             None if tilt is None else tilt[index], None if bend is None else bend[index]
         )
+
+    def _first_position(self, index: int, load: Array) -> Array:
+        """Where a search begins at the speed that is set."""
+        given = self.bearing, self.film, self.gap, load, self._held(index), self.shaft
+        return first_position(*given, self.line.start(index))
 
     def _carries(self, force: Array) -> bool:
         """Whether anything may carry a load at the speed that is set."""

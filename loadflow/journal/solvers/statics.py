@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from loadflow.errors import InputError
 from loadflow.journal.solvers.crowding import may_double, other_cells
 from loadflow.journal.solvers.effort import Effort
-from loadflow.journal.solvers.estimate import NEAR, first_position
+from loadflow.journal.solvers.estimate import NEAR
 from loadflow.journal.solvers.film_on_cells import FilmOnCells
 from loadflow.journal.solvers.floating import carries_there, floating_film
 from loadflow.journal.solvers.load_stepping import (
@@ -69,8 +69,7 @@ class Statics(FilmOnCells):
         """
         effort = effort or Effort.of(self.film, control.max_iterations)
         used, solution = self._on_any_cells(index, load, omega, last, control, _CROWDED, effort)
-        carries = self._carries(self._force(index, load))
-        if solution.converged or used._told(solution) or not carries:
+        if solution.converged or used._told(solution):
             return used, solution
         first = self.finer if self.can_refine else self
         return first._sunk(index, load, omega, control, effort, (used, solution))
@@ -134,8 +133,7 @@ class Statics(FilmOnCells):
         carries = self._carries(force)
         if not carries and force.any():
             return no_film(film)
-        near, of_shaft, cut = self.line.start(index), (self._held(index), self.shaft), False
-        estimate = first_position(self.bearing, film, gap, load, *of_shaft, near)
+        estimate, cut = self._first_position(index, load), False
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
@@ -319,9 +317,7 @@ class Statics(FilmOnCells):
         if not stands(film):
             return reached
         limits = control.tolerance, film.newton_steps(control.max_iterations)
-        near, of_shaft = self.line.start(index), (self._held(index), self.shaft)
-        estimate = first_position(self.bearing, film, self.gap, load, *of_shaft, near)
-        force = self._force(index, load)
+        force, estimate = self._force(index, load), self._first_position(index, load)
         found = solve_by_sinking(film, force, estimate, *limits, own, self.shaft)
         effort.sinking, effort.spent = own.left, effort.spent + own.spent
         if found is not None:

@@ -191,56 +191,52 @@ def beyond_pressure(tree: xr.DataTree, stage: str, *hints: str) -> Iterator[str]
     table = tree[stage].to_dataset() if stage in tree.children else xr.Dataset()
     if "largest_pressure" not in table:
         return
-    for bearing in table["bearing"].values:
-        peak = table["largest_pressure"].sel(bearing=bearing)
-        some = int((peak > LARGEST_PRESSURE).sum())
-        if some:
-            worst = int(peak.fillna(0.0).argmax("case"))
-            yield (
-                f"{stage}, bearing {bearing}: the pressure is beyond what oil and shell bear, "
-                f"{LARGEST_PRESSURE / 1e6:.0f} MPa, in {some} of {peak.size} load cases, "
-                f"{float(peak[worst]) / 1e6:,.0f} MPa in {table['case'].values[worst]}; "
-                + "; ".join(["check loads and clearance", *hints])
-            )
+    peak = table["largest_pressure"]
+    for bearing, cases, worst, largest in _where(peak > LARGEST_PRESSURE, peak):
+        yield (
+            f"{stage}, bearing {bearing}: the pressure is beyond what oil and shell bear, "
+            f"{LARGEST_PRESSURE / 1e6:.0f} MPa, in {cases}, {largest / 1e6:,.0f} MPa in {worst}; "
+            + "; ".join(["check loads and clearance", *hints])
+        )
 
 
 def _whirls(table: xr.Dataset) -> Iterator[str]:
     """Where a shaft whirls at half its speed, which hardly anything but the cells damps."""
     if "whirl_share" not in table:
         return
-    for bearing in table["bearing"].values:
-        share = table["whirl_share"].sel(bearing=bearing)
-        some = int((share >= WHIRLS).sum())
-        if some:
-            worst = int(share.fillna(0.0).argmax("case"))
-            yield (
-                f"journal, bearing {bearing}: the shaft whirls at half its speed in {some} of "
-                f"{share.size} load cases, {table['case'].values[worst]} for "
-                f"{percent(float(share[worst]))} of the time; its film does not rupture, and how "
-                "soon this dies, with film, pressure and friction until then, is up to the cells; "
-                "more load or a lower edge_pressure lets the film rupture, which damps it"
-            )
+    share = table["whirl_share"]
+    for bearing, cases, worst, longest in _where(share >= WHIRLS, share):
+        yield (
+            f"journal, bearing {bearing}: the shaft whirls at half its speed in {cases}, {worst} "
+            f"for {percent(longest)} of the time; its film does not rupture, and how soon this "
+            "dies, with film, pressure and friction until then, is up to the cells; more load or a "
+            "lower edge_pressure lets the film rupture, which damps it"
+        )
 
 
-def _unresolved(table: xr.Dataset) -> list[str]:
-    said: list[str] = []
+def _unresolved(table: xr.Dataset) -> Iterator[str]:
+    """Where the cells do not resolve the smallest film."""
     if "smallest_film" + GRID_ERROR not in table:
-        return []
+        return
     share = table["smallest_film" + GRID_ERROR] / table["smallest_film"]
     missed = share >= UNRESOLVED
     if "not_resolved" in table:
         missed = missed | (table["not_resolved"] > 0)
-    for bearing in table["bearing"].values:
-        here, off = missed.sel(bearing=bearing), share.sel(bearing=bearing)
-        if not here.any():
-            continue
-        worst = int(np.argmax(np.where(here & off.notnull(), off, -1.0)))
-        said.append(
-            f"journal, bearing {bearing}: the cells do not resolve the film in {int(here.sum())} "
-            f"of {here.size} load cases; the smallest film of {table['case'].values[worst]} is "
-            f"known to {percent(float(off[worst]))}; a finer journal.grid resolves it"
+    for bearing, cases, worst, off in _where(missed, share):
+        yield (
+            f"journal, bearing {bearing}: the cells do not resolve the film in {cases}; the "
+            f"smallest film of {worst} is known to {percent(off)}; a finer journal.grid resolves it"
         )
-    return said
+
+
+def _where(so: xr.DataArray, size: xr.DataArray) -> Iterator[tuple[Any, str, Any, float]]:
+    """Of each bearing of which something is `so`: in how many load cases, the worst, its size."""
+    for bearing in so["bearing"].values:
+        here, sizes = so.sel(bearing=bearing), size.sel(bearing=bearing)
+        if here.any():
+            at = int(np.argmax(np.where(here & sizes.notnull(), sizes, -1.0)))
+            cases = f"{int(here.sum())} of {here.size} load cases"
+            yield bearing, cases, sizes["case"].values[at], float(sizes[at])
 
 
 def mixed_friction(samples: xr.Dataset) -> xr.Dataset:

@@ -301,7 +301,7 @@ def _add_rolling(
         lives.append(turned)
         sums.power += turned.power
         sums.turning = max(sums.turning, float(turned.weight.sum()))
-        sums.extreme("contact_pressure", _largest_pressure(part, samples))
+        sums.extreme("contact_pressure", max(turned.pressure, _rarest_pressure(part, samples)))
         safety = _static(part, samples)
         sums.extreme("static_safety", safety)
         sums.margins[f"static rating of {place}"] = safety / part.limits.static_safety
@@ -354,6 +354,7 @@ class _Turned:
     oil: Any
     warmth: Warmth
     power: float
+    pressure: float
 
     @classmethod
     def of(
@@ -381,7 +382,7 @@ class _Turned:
         lost = answer.friction(speed, friction_options(options, part.geometry))
         return cls(
             part, answer.equivalent_load, speed, weight, lubrication(options), warmth,
-            float((lost.power * weight).sum()),
+            float((lost.power * weight).sum()), float(answer.maximum_pressure.max()),
         )  # fmt: skip
 
     @property
@@ -406,12 +407,13 @@ class _Turned:
         return float(found.life) * 1e6 / self._per_hour
 
 
-def _largest_pressure(part: FurtherBearing, samples: xr.Dataset) -> float:
-    """Largest contact pressure, Pa, of all samples: the hardest ones have no share of the life."""
-    force, moment = (
-        samples[name].transpose("sample", "axis").values for name in ("force", "moment")
-    )
-    answer = rest(part, force, moment, samples["speed"].values, strict=False)
+def _rarest_pressure(part: FurtherBearing, samples: xr.Dataset) -> float:
+    """Largest contact pressure, Pa, of samples without a share of the life, as the hardest are."""
+    rare = samples.isel(sample=np.flatnonzero(~(samples["weight"].values > 0)))
+    if not rare.sizes["sample"]:
+        return 0.0
+    force, moment = (rare[name].transpose("sample", "axis").values for name in ("force", "moment"))
+    answer = rest(part, force, moment, rare["speed"].values, strict=False)
     return float(np.where(answer.converged, answer.maximum_pressure, np.inf).max())
 
 
