@@ -88,6 +88,19 @@ def test_a_shaft_that_sinks_to_the_end_of_its_contact_is_told_to_touch():
         drawn("composed", 60101)[1]()
 
 
+@pytest.mark.parametrize(("number", "share"), [(70505, 0.0), (70645, 0.0126), (70675, 0.0)])
+def test_rough_shafts_in_soft_thick_shells_start_from_smooth_ones(number, share):
+    """Sought beside asperities alone the shaft met the shell, or the steps were lost."""
+    point, solve = drawn("composed", number)
+    found = solve()
+    assert found.converged
+    assert found.contact_share == pytest.approx(share, abs=1e-4)
+    # the film of the same load between smooth surfaces, which asperities only lift
+    smooth = {name: of for name, of in point.film.items() if name != "contact"}
+    alone = point.bearing.equilibrium(point.force, point.speed, point.oil, **smooth)
+    assert found.minimum_film == pytest.approx(alone.minimum_film, rel=0.1 if share else 1e-6)
+
+
 ROUGH_BORE = JournalBearing(diameter=0.2, width=0.1, relative_clearance=1e-3)
 ROUGH_FILM = Film(
     Lubricant(0.03),

@@ -8,15 +8,13 @@ that gives way by less, ``(1 − C ∂p_a/∂W)⁻¹ C``, and whose gap follows 
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.contact import Contact
-from loadflow.journal.film.gap import _rough_kernels as kernel
 from loadflow.journal.film.gap.asperity_load import Touch, YieldingNodeLoad
 from loadflow.journal.film.gap.rough import RoughElasticGap
+from loadflow.journal.film.shell import _contact_kernels as kernel
 from loadflow.journal.film.shell.compliance import Compliance
 from loadflow.journal.film.shell.elastic_film import ElasticFilm
 
@@ -44,11 +42,11 @@ class ShellContact(YieldingNodeLoad):
         super().__init__(contact, gap, radius, mirrors, grooves)
         mesh = gap.mesh
         self._compliance, self._shape = compliance, mesh.shape
-        self._gap_of_cells = self._between.matrix(mesh.shape)
-        weights = np.outer(self._around, self._across).ravel()
+        between = self._between.matrix(mesh.shape)
+        self._lines = between.indptr, between.indices, between.data
+        weights = np.outer(self._around, self._across).ravel() * ~self._held.ravel()
         areas = np.outer(mesh.dx, mesh.dz).ravel()
         self._means = contact.asperities.scale * weights / areas[self._cells]
-        self._free = ~self._held.ravel()
         self._unit_growth = 0.0
         self.steps = 0  # of Newton's method, since they were last counted
         self._touching = np.zeros(0, dtype=np.int64)
@@ -74,7 +72,7 @@ class ShellContact(YieldingNodeLoad):
         pressed_open = self._shell.pressed
         growth = pressed_open if unit and np.isfinite(pressed_open).all() else alone
         pressed, slope = self._asperities(rigid, growth)
-        missing = alone + unit * self._compliance.growth(pressed) - growth
+        missing = alone + self._grown_by(pressed) - growth
         for _ in range(_STEPS):
             size = max(float(np.abs(growth).max()), self._roughness)
             left = float(np.abs(missing).max())
@@ -85,7 +83,7 @@ class ShellContact(YieldingNodeLoad):
             for _ in range(_HALVINGS):
                 trial = growth + share * step
                 pressed, slope = self._asperities(rigid, trial)
-                missing = alone + unit * self._compliance.growth(pressed) - trial
+                missing = alone + self._grown_by(pressed) - trial
                 if float(np.abs(missing).max()) < left:
                     break
                 share *= 0.5
@@ -113,22 +111,29 @@ class ShellContact(YieldingNodeLoad):
     # --- inside ----------------------------------------------------------------------------------
     def _asperities(self, rigid: Array, growth: Array) -> tuple[Array, Array]:
         """Mean pressure of the cells (nx, nz), Pa, and its change by the gap of the nodes."""
-        gaps = rigid + self._gap_of_cells @ growth.ravel()
-        value, slope = np.zeros(gaps.size), np.zeros(gaps.size)
-        kernel.asperity_field(gaps, self._roughness, 0.0, self._free, value, slope)
-        sums = np.bincount(self._cells, self._means * value, growth.size).astype(float)
-        return sums.reshape(self._shape), self._means * slope
+        pressure, slope = np.empty(growth.size), np.empty(rigid.size)
+        given = rigid, growth.ravel(), self._lines, self._cells, self._means, self._roughness
+        kernel.press(*given, pressure, slope)
+        return pressure.reshape(self._shape), slope
+
+    def _grown_by(self, pressed: Array) -> Array:
+        """Growth of all cells, clearances, by what asperities press on some, Pa."""
+        flat = pressed.ravel()
+        cells = np.flatnonzero(flat)
+        return self._unit_growth * (flat[cells] @ self._influence(cells)).reshape(self._shape)
 
     def _linearise(self, slope: Array) -> None:
         """Cells that touch, change of their pressure by all growth, and of all growth by theirs."""
         self.steps += 1
-        nodes = np.flatnonzero(slope)
-        self._touching, number = np.unique(self._cells[nodes], return_inverse=True)
+        touching = np.zeros(self._row.size, dtype=bool)
+        touching[self._cells[slope != 0.0]] = True
+        self._touching = np.flatnonzero(touching)
         count = self._touching.size
         if not count:
             return
-        by_nodes: Any = _sums(slope[nodes], number, count) @ self._gap_of_cells[nodes]
-        self._by_growth = by_nodes.toarray()
+        self._by_growth = np.zeros((count, touching.size))
+        row = np.cumsum(touching) - 1
+        kernel.add_by_growth(slope, self._lines, self._cells, row, self._by_growth)
         self._grown = self._unit_growth * self._influence(self._touching)
         self._matrix = np.eye(count) - self._by_growth @ self._grown.T
 
@@ -168,29 +173,30 @@ class ShellContact(YieldingNodeLoad):
 
 
 class TouchedFilm(ElasticFilm):
-    """Film in a shell that gives way around what film and asperities press."""
+    """Film in a shell that gives way around what film and asperities press.
 
-    contact: ShellContact
+    Without its `contact` it is that of a shell which the film alone presses.
+    """
+
+    contact: ShellContact | None
 
     def further_work(self) -> float:
         """What the film has taken beyond its Newton steps, as `Effort` counts, since last asked."""
+        work = super().further_work()
+        if self.contact is None:
+            return work
         steps, self.contact.steps = self.contact.steps, 0
-        cells = float(self.mesh.shape[0] * self.mesh.shape[1])
-        return super().further_work() + _OF_CELLS * cells * steps
+        return work + _OF_CELLS * float(self.mesh.shape[0] * self.mesh.shape[1]) * steps
 
     def _grow(self, position: Array) -> None:
-        pressure = self._excess()
-        self.gap.grow(self.contact.settle(pressure, position, self._per_clearance))
+        if self.contact is None:
+            super()._grow(position)
+        else:
+            growth = self.contact.settle(self._excess(), position, self._per_clearance)
+            self.gap.grow(growth)
 
     def _grows(self, pressure: Array) -> Array:
-        return self.contact.grows(pressure)
+        return super()._grows(pressure) if self.contact is None else self.contact.grows(pressure)
 
-    def _follows(self) -> Array:
-        return self.contact.by_place
-
-
-def _sums(values: Array, rows: NDArray[np.int64], count: int) -> Any:
-    """Sparse matrix that sums `values` to `count` rows."""
-    from scipy.sparse import csr_matrix
-
-    return csr_matrix((values, (rows, np.arange(values.size))), shape=(count, values.size))
+    def _follows(self) -> Array | None:
+        return None if self.contact is None else self.contact.by_place
