@@ -17,7 +17,9 @@ import pytest
 from benchmarks.robustness import families
 from loadflow.errors import SolverError
 from loadflow.journal import (
+    Arc,
     Contact,
+    Cylindrical,
     Film,
     Groove,
     Guembel,
@@ -34,7 +36,7 @@ from loadflow.journal.models import grid, reduced
 from loadflow.journal.models.finer_orbit import on_enough_cells
 from loadflow.journal.questions import AtRest
 from loadflow.journal.shells import LocalShell, ThickShell
-from loadflow.journal.solvers import estimate, load_stepping, statics
+from loadflow.journal.solvers import estimate, load_stepping, messages, statics
 from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.motion.transient import OrbitStopped
 from loadflow.journal.solvers.newton import no_film, solve_film
@@ -423,6 +425,22 @@ def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
     """It does on 120 × 24 cells, too, at the same time."""
     with pytest.raises(SolverError, match=r"orbit stops at t = 0\.336.*; the shaft touches the b"):
         drawn("composed", 181)[1]()
+
+
+@pytest.mark.parametrize("number", [61220, 70139])
+def test_an_orbit_whose_shaft_leaves_a_partial_arc_says_so(number):
+    """The load of both turns away from the arc; on "grid" the shaft meets an edge of it."""
+    with pytest.raises(SolverError, match=r"orbit stops.*; the shaft leaves the arc by its open"):
+        drawn("composed", number)[1]()
+
+
+def test_a_shaft_leaves_an_arc_only_where_load_and_way_are_beside_it():
+    arc, out, over = Arc(angle=0.5, span=2.0), np.array([-1.0, -0.5]), np.array([1.0, 0.5])
+    assert messages.leaves(arc, 2.0 * out, out)
+    assert not messages.leaves(arc, 2.0 * out, over)
+    assert not messages.leaves(arc, 2.0 * over, out)
+    assert not messages.leaves(arc, 0.5 * out, out)
+    assert not messages.leaves(Cylindrical(), 2.0 * out, out)
 
 
 def test_a_warm_film_that_the_fast_rung_does_not_find_has_the_word_of_the_grid():

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap.gap import BoreGap
     from loadflow.journal.film.gap.shaped import ShapedGap
+    from loadflow.journal.shapes import Shape
 
 Array = NDArray[np.float64]
 
@@ -74,6 +75,20 @@ def touched(least: float, clearance: float, at: str = "") -> str:
     """Say that the shaft touches the bore, its narrowest gap `least` clearances, m, and where."""
     narrowest = f"narrowest gap {least * clearance:.6g} m{at}"
     return f"; the shaft touches the bore, {narrowest} (radial clearance {clearance:.6g} m)"
+
+
+def leaves(shape: Shape, position: Array, force: Array) -> str:
+    """That a shaft at a `position` (2,), clearances, has left a partial arc; else nothing.
+
+    It is farther out than the clearance where there is no shell, and its `force` (2,) points there.
+    """
+    if len(shape.segments) != 1 or not math.hypot(*position) > 1.0:
+        return ""
+    start, end = shape.segments[0].start, shape.segments[0].end
+    ways = [math.atan2(y, x) for x, y in (position, force)]
+    if any((way - start) % (2 * math.pi) <= end - start for way in ways):
+        return ""
+    return "; the shaft leaves the arc by its open side, where the load points"
 
 
 def why_unsolved(

@@ -43,7 +43,7 @@ from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
 from loadflow.journal.questions import InMotion
 from loadflow.journal.solvers.load_stepping import TOUCHING
-from loadflow.journal.solvers.messages import touched
+from loadflow.journal.solvers.messages import leaves, touched
 from loadflow.journal.solvers.motion.transient import OrbitStopped, stopped
 from loadflow.journal.solvers.statics import Statics
 
@@ -263,7 +263,8 @@ class March:
         row = self.rows[last]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
         given = drive.time[last], drive.force[last], drive.speed[last], ratio
-        return stopped(*given, _found_in(row), self._touch(last), self.work)
+        why = self._touch(last) or leaves(drive.bearing.shape, row[[at.X, at.Y]], drive.force[last])
+        return stopped(*given, _found_in(row), why, self.work)
 
     def _touch(self, sample: int) -> str:
         """That a smooth shaft has met a rigid bore at a sample, as on the grid; else nothing.
