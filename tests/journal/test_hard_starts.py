@@ -38,6 +38,7 @@ from loadflow.journal.questions import AtRest
 from loadflow.journal.shells import LocalShell, ThickShell
 from loadflow.journal.solvers import estimate, load_stepping, messages, statics
 from loadflow.journal.solvers.effort import Effort
+from loadflow.journal.solvers.motion.start import orbit_film, orbit_start
 from loadflow.journal.solvers.motion.transient import OrbitStopped
 from loadflow.journal.solvers.newton import no_film, solve_film
 from loadflow.journal.solvers.search import searches
@@ -606,6 +607,18 @@ def test_on_any_cells_a_search_may_take_the_steps_of_three_solutions(grid, monke
     """On few of them it may take many more."""
     seen, effort = first_effort(monkeypatch, grid=grid, inlet=None, max_iterations=50)
     assert effort.steps(seen.film) >= 3 * seen.film.newton_steps(50)
+
+
+def test_a_first_film_that_is_not_found_tells_the_work_that_its_shell_took(monkeypatch):
+    """Number 71403 was sought on ever more cells: a step there takes many of a rigid bore."""
+    point, _ = drawn("composed", 71403)
+    own, film = Effort(left=1e5), Film(point.oil, **point.film)
+    first, _ = orbit_film(point.bearing, film, point.force[None], np.array([point.speed]), Line())
+    monkeypatch.setattr(Effort, "of", lambda *film: own)
+    with pytest.raises(OrbitStopped) as error:
+        orbit_start(first, point.force, point.speed, None, Limits(1e-8, 60, True))
+    assert error.value.work == pytest.approx(1e5 - own.left)
+    assert error.value.work > 1e5 > 3.0 * own.spent * first.film.mesh.order.size
 
 
 def test_an_orbit_that_stops_late_is_not_tried_on_ever_more_cells(monkeypatch):

@@ -75,11 +75,12 @@ class Harmonic:
     def growth(self, pressure: Array) -> Array:
         """Growth of the gaps under `pressure`, (…, nx, nz), m."""
         orders, _, nx = self.turns.shape
-        turns = self.turns.reshape(-1, nx)
-        waves = (turns * self.weights) @ pressure
-        split = waves.reshape(*pressure.shape[:-2], orders, 2, -1)
-        grown = split @ self.numbers.swapaxes(-1, -2)
-        return turns.T @ grown.reshape(waves.shape)
+        turns, nz = self.turns.reshape(-1, nx), pressure.shape[-1]
+        rows = np.moveaxis(pressure.reshape(-1, nx, nz), 1, 0)  # all fields in one product
+        waves = (turns * self.weights) @ rows.reshape(nx, -1)
+        grown = waves.reshape(orders, -1, nz) @ self.numbers.swapaxes(-1, -2)
+        fields = (turns.T @ grown.reshape(waves.shape)).reshape(nx, -1, nz)
+        return np.ascontiguousarray(np.moveaxis(fields, 1, 0)).reshape(pressure.shape)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from loadflow.journal.film.discretise import is_cylindrical
 from loadflow.journal.film_model import Film
 from loadflow.journal.geometry import JournalGeometry
 from loadflow.journal.line import Line
+from loadflow.journal.solvers.effort import Effort
 from loadflow.journal.solvers.load_stepping import APART
 from loadflow.journal.solvers.motion.transient import OrbitStopped
 from loadflow.journal.solvers.newton import Solution
@@ -43,8 +44,10 @@ def orbit_start(
     loadflow.errors.SolverError
         None, as the shaft meets the elastic shell.
     """
+    effort = Effort.of(statics.film, control.max_iterations)
+    given = effort.left
     if start is None:
-        first = statics.solve(0, load, omega, None, control)
+        first = statics.solve(0, load, omega, None, control, effort=effort)
         if not first.converged and statics.gap.axisymmetric:
             first = statics.settled(0, load, omega, control)
     else:
@@ -53,5 +56,8 @@ def orbit_start(
         why = f"orbit cannot start: {statics.message(first, load)}"
         if statics.film.elastic and statics.film.clearance_left(first.position) <= APART:
             raise SolverError(why)  # which more cells do not change
-        raise OrbitStopped(why, work=float(first.iterations * statics.film.mesh.order.size))
+        cells = float(first.iterations * statics.film.mesh.order.size)
+        raise OrbitStopped(
+            why, work=max(cells, given - effort.left)
+        )  # of a shell a step takes more
     return first

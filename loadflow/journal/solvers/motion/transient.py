@@ -39,8 +39,9 @@ class OrbitStopped(SolverError):
     time : float
         Where it stops, s; NaN for the first film.
     work : float or None
-        Newton steps times cells that it took up to there; None where nobody counts them: smooth,
-        aligned films on the rung "reduced", and shafts in several films, of which a step is cheap.
+        Newton steps times cells that it took up to there, of a first film as `Effort` counts; None
+        where nobody counts them: smooth, aligned films on the rung "reduced", and shafts in several
+        films, of which a step is cheap.
     """
 
     def __init__(self, message: str, time: float = math.nan, work: float | None = None) -> None:
