@@ -82,12 +82,15 @@ def write_comparison(
             above = row
         else:
             silent.append(f"{about['name']} ({why})")
+    nowhere = _nowhere(groups)
+    groups = {title: [_without(nowhere, row) for row in rows] for title, rows in groups.items()}
     return write_filled(
         path,
         "compare.html",
         data=data,
         groups=groups.items(),
         silent=silent,
+        nowhere=nowhere,
         reasons=_reasons(groups),
         behind=behind.items(),
         sketch=sketch(data["shaft"]),
@@ -97,6 +100,23 @@ def write_comparison(
         asset=asset,
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
+
+
+def _nowhere(groups: Mapping[str, list[Row]]) -> dict[str, str]:
+    """What no number of the table has, for one reason that all share: told once, in no cell."""
+    cells = [cell for rows in groups.values() for row in rows for cell in row.cells]
+    numbers = [dict(cell.missing) for cell in cells if cell.around or cell.missing]
+    shared = set.intersection(*(set(lacks.items()) for lacks in numbers)) if numbers else set()
+    return dict(sorted(shared))
+
+
+def _without(told: Mapping[str, str], row: Row) -> Row:
+    """A row whose cells leave out what is told once for all of them."""
+    cells = (
+        replace(cell, missing=tuple(one for one in cell.missing if one[0] not in told))
+        for cell in row.cells
+    )
+    return replace(row, cells=tuple(cells))
 
 
 def _reasons(groups: Mapping[str, list[Row]]) -> dict[str, int]:

@@ -624,7 +624,7 @@ def test_a_spherical_pair_has_its_thrust_on_one_row(found):
 
 
 def test_what_carries_the_thrust_is_said(found):
-    assert by_name(found)["journal-cylindrical"].thrust.startswith("none")
+    assert by_name(found)["journal-cylindrical"].thrust.startswith("no bearing; one for")
     assert by_name(found)["two-spherical"].thrust.startswith("N2")
     assert by_name(found)["double-row-tapered"].thrust.startswith("M")
 
@@ -1042,6 +1042,23 @@ def test_a_row_that_is_zero_or_without_a_number_throughout_is_named_once_with_wh
     assert f"{worn} (wear.law: needs a law)" in told
     assert f'<th scope="row">{pump}' not in page
     assert f'<th scope="row">{film}' in page  # 0 breaks its limit
+
+
+def test_what_no_number_has_is_told_once_and_stands_in_no_cell(tmp_path):
+    def page_of(energy):
+        film = Number(20.0, "µm", error=0.02)
+        one = judged_of("one", 3.0, "journal", numbers={"minimum_film": film, "energy": energy})
+        told = Comparison("c", "", "", (one,), {}, [], {}, []).as_dict()
+        return write_comparison(tmp_path / "c.html", told).read_text(encoding="utf-8")
+
+    lacking, once = "<i>seeds</i> – <a", "No number has <i>seeds</i> beside it: one seed gives no"
+    of_one_seed = page_of(Number(10.0, "MWh"))
+    assert of_one_seed.count(once) == 1
+    assert lacking not in of_one_seed
+    assert "<i>models</i> – <a" in of_one_seed  # the film has that
+    of_several = page_of(Number(10.0, "MWh", low=9.0, high=11.0))
+    assert once not in of_several
+    assert of_several.count(lacking) >= 1
 
 
 def test_without_a_picture_a_number_leads_to_its_row_which_leads_nowhere(tmp_path):

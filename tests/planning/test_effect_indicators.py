@@ -1,5 +1,7 @@
 """Indicators of grooves, of bearings that take a moment, and of all effects against pilots."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -128,6 +130,21 @@ def test_effects_are_within_what_their_indicators_may_be_off_wherever_they_were_
     assert wrong == {}
     for effect in (film.MOTION, film_heat.HEAT, rolling.RINGS, roller_profile.SLICED, rotor.INFLOW):
         assert sum(one.counts for one in most if one.effect is effect) >= 15
+
+
+def test_an_effect_that_moves_more_than_is_allowed_for_is_told_from_one_that_moves_less():
+    pair = indicators.Pair(rolling.RINGS, "maximum force", "here", 0.1, 0.1, 3.0, True)
+    more, less = replace(pair, measured=0.4), replace(pair, indicated=0.4, measured=0.002)
+    assert (pair.within, more.within, less.within) == (True, False, False)
+    assert (pair.more, more.more, less.more) == (False, True, False)
+    assert "1 of 3 answers are within" in (
+        told := indicators.outside_table(places(pair, more, less))
+    )
+    assert "may leave out what counts: 1; by less: 1." in told
+
+
+def places(*some):
+    return [replace(one, place=str(k)) for k, one in enumerate(some)]
 
 
 @pytest.fixture(scope="module")

@@ -191,7 +191,7 @@ def missing(key: str, number: Number) -> dict[str, str]:
         return {}
     about, found = QUANTITIES[key], {}
     if math.isnan(number.low):
-        found["seeds"] = "the load case, or all of them, has one seed, or a film is broken in some"
+        found["seeds"] = "one seed gives no interval, nor does a film that is broken with some"
     nothing = "it is 0, of which there is no share"
     if math.isnan(number.error):
         left = "" if number.value else nothing

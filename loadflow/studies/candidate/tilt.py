@@ -39,7 +39,7 @@ def carries_thrust(scene: Scene, tables: Tables) -> str:
         left.append(one.force)
     if "journal" in tables and not left:
         left = [float(tables["journal"]["largest_axial_load"].max())]
-    return f"none: needs a thrust bearing for {max(left) / 1e3:.0f} kN" if left else "none"
+    return f"no bearing; one for {max(left) / 1e3:.0f} kN is needed" if left else "no bearing"
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ def of_rolling(scene: Scene, table: xr.Dataset, lifetime: xr.Dataset | None) -> 
                 subject, f"force along {axis} without a bearing", 0.0 if carried else value, 0.0,
                 "at most", "N", "equilibrium of the shaft", case,
                 note=f"{force} is carried by {name}, a {bearing.words}" if carried
-                else f"none: {force} is carried by no bearing of this arrangement",
+                else f"{force} is carried by no bearing of this arrangement",
             )  # fmt: skip
     if table.sizes["bearing"] > 1:
         yield from _lives(scene, "rolling, all as a system", lifetime, None, table)

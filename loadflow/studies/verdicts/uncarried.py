@@ -133,12 +133,12 @@ def _at(
         kind = "a journal bearing"
     else:
         note = (
-            f"none: {size} loads place {place}, which locates it; place {place} has no bearing in "
+            f"{size} loads place {place}, which locates it; place {place} has no bearing in "
             "this scene, and nothing in the scene carries it"
         )
         return Located(place, force, case, time, subject, False, note)
     note = (
-        f"none: {size} loads place {place}, which locates it; {kind} stands there, which carries "
+        f"{size} loads place {place}, which locates it; {kind} stands there, which carries "
         "no thrust: it needs a thrust bearing"
     )
     return Located(place, force, case, time, subject, False, note)

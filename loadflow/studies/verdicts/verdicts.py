@@ -289,7 +289,7 @@ def _thrust_on_journal(subject: str, table: xr.Dataset) -> Verdict | None:
         "equilibrium of the shaft",
         case,
         time,
-        f"none: {value / 1e3:.0f} kN along the shaft is carried by no bearing of this arrangement; "
+        f"{value / 1e3:.0f} kN along the shaft is carried by no bearing of this arrangement; "
         "it needs a thrust bearing",
     )
 
