@@ -319,8 +319,8 @@ def test_bad_cycles_and_an_endless_life_are_told():
         Cycle([1.0, 0.0], [(1.0, 2.0)] * 2, [0.0, 0.0])
     with pytest.raises(InputError, match="in_motion"):
         replace(start(in_motion=False), start=(0.0, 0.0))
+    at_rest = start(1e6, in_motion=False)
     with pytest.raises(SolverError, match="after 2 films"):
-        at_rest = start(1e6, in_motion=False)
         wear_bearing(BEARING, [at_rest], film(), Wear(Archard(1e-15), max_renewals=2))
 
 
