@@ -1,13 +1,17 @@
 """Kernels that are kept on the disk answer only for the code that they were compiled from."""
 
+import gc
 import re
 from pathlib import Path
 
 import pytest
+from numba.core import event
+from numba.core.errors import TypingError
 
 import loadflow
 from loadflow.journal.solvers import _newton_kernels
 from loadflow.numerics import kept_kernels
+from loadflow.numerics.linked import bare
 from loadflow.wind import _kernels as wind_kernels
 
 ROOT = Path(loadflow.__file__).parent
@@ -109,3 +113,37 @@ def test_all_kernels_are_compiled_by_the_module_that_says_how_they_are_kept():
         if takes.search(file.read_text(encoding="utf-8"))
     }
     assert found == {"numerics/linked.py"}
+
+
+@pytest.mark.parametrize("fails", [False, True])
+def test_python_collects_less_often_while_kernels_are_compiled_and_as_before_afterwards(fails):
+    """One within another, and where the inner one cannot be compiled."""
+    seen = []
+
+    class Seen(event.Listener):
+        def on_start(self, event):
+            seen.append(gc.get_threshold())
+
+        on_end = on_start
+
+    @bare()
+    def inner(x):
+        return x.none if fails else x + 1.0
+
+    @bare()
+    def outer(x):
+        return inner(x)
+
+    before = gc.get_threshold()
+    try:
+        gc.set_threshold(700, 10, 9)
+        with event.install_listener("numba:compile", Seen()):
+            if fails:
+                with pytest.raises(TypingError):
+                    outer(1.0)
+            else:
+                assert outer(1.0) == 2.0
+        assert seen == [(50_000, 20, 20)] * 3 + [(700, 10, 9)]
+        assert gc.get_threshold() == (700, 10, 9)
+    finally:
+        gc.set_threshold(*before)
