@@ -126,7 +126,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
         err.print(f"[red]error:[/] {_plain(error)}", soft_wrap=True)
         sys.exit(2)
     except (LoadflowError, OSError) as error:  # OSError: a disk or folder that refuses the output
-        told = f"{error.strerror}: {error.filename}" if getattr(error, "filename", None) else error
+        told = str(error)
+        if isinstance(error, OSError) and error.filename:
+            told = f"{error.strerror}: {error.filename}"
         err.print(f"[red]failed:[/] {_plain(told)}", soft_wrap=True)
         sys.exit(1)
     except Stopped as stop:
