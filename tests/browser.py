@@ -30,6 +30,17 @@ TEXT = """(() => {
 """What a page shows, within shadow roots, too."""
 
 
+CODES = {"Tab": 9, "Enter": 13, "ArrowLeft": 37, "ArrowRight": 39}
+
+FOCUS = """(() => { const a = document.activeElement, r = a.getBoundingClientRect();
+  if (a === document.body) return null;
+  const o = getComputedStyle(a);
+  return { name: `${a.tagName} ${a.className} ${a.textContent.slice(0, 40)}`,
+    seen: r.width > 0 && r.bottom > 0 && r.top < innerHeight,
+    outlined: o.outlineStyle !== 'none' && parseFloat(o.outlineWidth) >= 1 }; })()"""
+"""What has the focus, if anything, and whether one sees that it has."""
+
+
 class Browser:
     """Run by `asyncio.run`; ends its own process only."""
 
@@ -91,6 +102,23 @@ class Browser:
         found = await self.call("Runtime.evaluate", expression=code, returnByValue=True)
         return found["result"].get("value")
 
+    async def press(self, key, *, shift=False):
+        """Press and let go of a key where the focus is, as a hand does."""
+        about = {"key": key, "windowsVirtualKeyCode": CODES.get(key, 0), "modifiers": 8 * shift}
+        typed = {"Enter": "\r"}.get(key, key if len(key) == 1 else "")
+        await self.call("Input.dispatchKeyEvent", type="keyDown", text=typed, **about)
+        await self.call("Input.dispatchKeyEvent", type="keyUp", **about)
+
+    async def tab_to(self, selector, most=400):
+        """Press Tab until the focus is on what a selector names; return what it went over."""
+        passed = []
+        for _ in range(most):
+            await self.press("Tab")
+            passed.append(await self.evaluate(FOCUS))
+            if await self.evaluate(f"document.activeElement.matches({selector!r})"):
+                return passed
+        raise AssertionError(f"no Tab leads to {selector}")
+
     async def shows(self, *words, seconds=60):
         """Wait until the page shows all of some words."""
         end = time.monotonic() + seconds
@@ -109,3 +137,37 @@ async def until(holds, seconds):
     while not holds():
         assert time.monotonic() < end, "too long"
         await asyncio.sleep(0.1)
+
+
+ON_PAPER = """(() => {
+  const closed = () => [...document.querySelectorAll('details:not([open])')], before = closed();
+  const edges = which => [...document.querySelectorAll('table, svg, img, canvas')].filter(which)
+    .map(one => Math.round(one.getBoundingClientRect().right));
+  dispatchEvent(new Event('beforeprint'));
+  const told = {
+    folded: before.length,
+    lost: closed().filter(one => !one.querySelector('.chart')).length,
+    silent: [...document.querySelectorAll('summary')].filter(one => !one.offsetHeight).length,
+    wide: edges(one => one.closest('.wide')),
+    upright: edges(one => one.closest('.upright')),
+    other: edges(one => !one.closest('.wide, .upright')),
+    smallest: Math.min(...[...document.querySelectorAll('td')]
+      .map(one => parseFloat(getComputedStyle(one).fontSize))),
+  };
+  dispatchEvent(new Event('afterprint'));
+  return { ...told, again: closed().length };
+})()"""
+
+
+async def on_paper(browser, width):
+    """Return what becomes of a page on paper with so many millimetres between its margins.
+
+    `wide`, `upright`, `other` are right edges, px, of what is printed on paper that lies, on paper
+    that stands, and on that of the page.
+    """
+    await browser.call(
+        "Emulation.setDeviceMetricsOverride",
+        width=round(width / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False,
+    )  # fmt: skip
+    await browser.call("Emulation.setEmulatedMedia", media="print")
+    return await browser.evaluate(ON_PAPER)

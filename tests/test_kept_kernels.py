@@ -1,11 +1,14 @@
 """Kernels that are kept on the disk answer only for the code that they were compiled from."""
 
 import gc
+import os
 import re
+import tempfile
 from pathlib import Path
 
 import pytest
 from numba.core import event
+from numba.core.caching import FunctionCache
 from numba.core.errors import TypingError
 
 import loadflow
@@ -148,3 +151,32 @@ def test_python_collects_less_often_while_kernels_are_compiled_and_as_before_aft
         assert gc.get_threshold() == (700, 10, 9)
     finally:
         gc.set_threshold(*before)
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="folders have no owner here")
+def test_an_account_that_can_write_neither_package_nor_home_keeps_kernels_of_its_own(
+    tmp_path, monkeypatch
+):
+    """As of a service: numba refused to compile there."""
+    monkeypatch.setattr(kept_kernels, "_BY_NUMBA", ())
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    function = next(
+        one.py_func for one in vars(_newton_kernels).values() if hasattr(one, "py_func")
+    )
+    own = tmp_path / f"loadflow-kernels-{os.getuid()}"
+    room = Path(function.__code__.co_filename).parent.relative_to(ROOT)
+
+    def kept_in():
+        kept_kernels._temporary_folder.cache_clear()
+        return Path(FunctionCache(function).cache_path)
+
+    try:
+        assert kept_in() == own / room
+        assert own.stat().st_mode & 0o777 == 0o700
+        own.chmod(0o777)  # who writes there has his code run by us
+        assert own not in kept_in().parents
+        own.rename(tmp_path / "another")
+        own.symlink_to(tmp_path / "another")
+        assert own not in kept_in().parents
+    finally:
+        kept_kernels._temporary_folder.cache_clear()

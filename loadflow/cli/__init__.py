@@ -126,7 +126,10 @@ def main(arguments: Sequence[str] | None = None) -> None:
         err.print(f"[red]error:[/] {_plain(error)}", soft_wrap=True)
         sys.exit(2)
     except (LoadflowError, OSError) as error:  # OSError: a disk or folder that refuses the output
-        err.print(f"[red]failed:[/] {_plain(error)}", soft_wrap=True)
+        told = str(error)
+        if isinstance(error, OSError) and error.filename:
+            told = f"{error.strerror}: {error.filename}"
+        err.print(f"[red]failed:[/] {_plain(told)}", soft_wrap=True)
         sys.exit(1)
     except Stopped as stop:
         tell_stopped(stop.number)
@@ -153,5 +156,5 @@ def _print_on_any_code_page() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
-def _plain(error: Exception) -> str:
+def _plain(error: Exception | str) -> str:
     return str(error).replace("[", "\\[")

@@ -5,13 +5,19 @@ files, but looks at its own file alone when it asks whether a kept one still hol
 old code could answer. It also knows a field of a named tuple by its place alone. Here the state of
 all these files and tuples is part of the name under which a kernel is kept, and kernels kept of
 another state of its file are removed.
+
+Where neither the folder of the package nor one of the user can be written, as for an account
+without a home, numba would refuse to compile at all. Kernels are then kept in the folder for
+temporary files.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
+import os
 import re
+import tempfile
 from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
@@ -56,16 +62,57 @@ class KernelPlace(_CacheLocator):
 
     @classmethod
     def from_function(cls, function: Callable[..., Any], file: str) -> KernelPlace | None:
-        """Place of a kernel of this package; None of others, and where numba finds no folder."""
+        """Place of a kernel of this package; None of others."""
         path = Path(file)
         if not path.is_relative_to(_ROOT) or not path.is_file():
             return None
-        for kind in _BY_NUMBA:
-            chosen = kind.from_function(function, file)
-            if chosen is not None:
-                _remove_outdated(Path(chosen.get_cache_path()), path)
-                return cls(chosen, path)
-        return None
+        found = (kind.from_function(function, file) for kind in _BY_NUMBA)
+        chosen = next(filter(None, found), None) or TemporaryPlace(function, path)
+        _remove_outdated(Path(chosen.get_cache_path()), path)
+        return cls(chosen, path)
+
+
+class TemporaryPlace:
+    """A folder for temporary files as a place of kernels, of the kind that numba chooses.
+
+    Parameters
+    ----------
+    function : callable
+        What is compiled.
+    file : path
+        Its file.
+
+    Raises
+    ------
+    OSError
+        If there is no folder for temporary files either.
+    """
+
+    def __init__(self, function: Callable[..., Any], file: Path) -> None:
+        self._folder = _temporary_folder() / file.relative_to(_ROOT).parent
+        self._folder.mkdir(parents=True, exist_ok=True)
+        self._line = function.__code__.co_firstlineno
+
+    def get_cache_path(self) -> str:
+        """Folder."""
+        return str(self._folder)
+
+    def get_disambiguator(self) -> str:
+        """Line of the kernel."""
+        return str(self._line)
+
+
+@cache
+def _temporary_folder() -> Path:
+    """The user's own folder: who else could write there could have his code run by us."""
+    user = os.getuid() if hasattr(os, "getuid") else ""
+    folder = Path(tempfile.gettempdir()) / f"loadflow-kernels-{user}"
+    with suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+    state = folder.lstat()
+    if user != "" and (folder.is_symlink() or state.st_uid != user or state.st_mode & 0o077):
+        return Path(tempfile.mkdtemp(prefix="loadflow-kernels-"))
+    return folder
 
 
 @cache

@@ -11,7 +11,7 @@ from typing import Any
 from loadflow.quantities import HOURS_PER_YEAR, percent, scale_of, three_digits
 from loadflow.report.charts import Chart
 from loadflow.report.moments import Moment, place_of
-from loadflow.report.page import asset, write_filled
+from loadflow.report.page import write_filled
 from loadflow.report.sketch import sketch
 
 
@@ -97,7 +97,6 @@ def write_comparison(
         verdicts={one["name"]: [*_verdicts(one, shown)] for one in candidates},
         extremes={one["name"]: [*_extremes(one, data, shown)] for one in candidates},
         pictures=pictures,
-        asset=asset,
         checks={one["name"]: [_check(c) for c in one["checks"]] for one in candidates},
     )
 

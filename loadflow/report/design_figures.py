@@ -28,11 +28,11 @@ def front_figure(data: Mapping[str, Any]) -> Figure:
     """
     drawing, axis = figure(height=3.6)
     rows = [(one["numbers"], one["why"]) for one in data["designs"]]
-    x, y, holds = (
+    x, y, condition = (
         np.array([_number(numbers, name) for numbers, _ in rows])
         for name in ("load_factor", "energy", "condition")
     )
-    keep = holds >= 1
+    keep = np.isfinite(y) & ~_breaks(condition)
     axis.scatter(x[~keep], y[~keep], s=9, c=_BAD, marker="x", lw=0.7, label="breaks a condition")
     axis.scatter(x[keep], y[keep], s=10, c=_GOOD, alpha=0.35, lw=0, label="designs")
     front = data["front"]["index"]
@@ -50,7 +50,7 @@ def front_figure(data: Mapping[str, Any]) -> Figure:
     shown = y[np.isfinite(y) & (x >= 0.5 * data["margin"])]
     if shown.size:
         axis.set_ylim(0.9 * shown.min(), min(1.05 * shown.max(), 4 * np.median(shown)))
-    axis.legend(loc="upper left")
+    axis.legend(loc="best")
     return drawing
 
 
@@ -59,8 +59,7 @@ def map_figure(data: Mapping[str, Any], number: int) -> Figure:
     one = data["maps"][number]
     axes = {axis["key"]: axis for axis in data["axes"]}
     drawing, panels = figure(1, 2, height=3.4)
-    margin, condition = (_table(one["values"][name]) for name in ("load_factor", "condition"))
-    broken = ~((margin >= data["margin"]) & (condition >= 1))
+    broken = broken_in(one["values"], data["margin"])
     for panel, (name, title) in zip(panels, MAPPED):
         values = np.ma.masked_invalid(_table(one["values"][name]))
         if values.count():
@@ -81,12 +80,23 @@ def map_figure(data: Mapping[str, Any], number: int) -> Figure:
     return drawing
 
 
+def broken_in(values: Mapping[str, Any], asked: float) -> np.ndarray:
+    """Where in a map a condition is broken, or less margin than was asked for, or no answer."""
+    margin, condition = (_table(values[name]) for name in ("load_factor", "condition"))
+    return ~(margin >= asked) | _breaks(condition)
+
+
 def _label(panel: Axes, axis: Mapping[str, Any], side: str) -> None:
     unit = f", {axis['unit']}" if axis["unit"] else ""
     panel.set(**{f"{side}label": f"{axis['key']}{unit}"})
     if axis["values"]:
         places = range(len(axis["values"]))
         panel.set(**{f"{side}ticks": places, f"{side}ticklabels": axis["values"]})
+
+
+def _breaks(condition: np.ndarray) -> np.ndarray:
+    """Whether a condition is broken; a bearing that has none, such as a rolling one, has NaN."""
+    return condition < 1
 
 
 def _table(rows: Any) -> np.ndarray:

@@ -18,7 +18,7 @@ from loadflow.plots.style import to_png, to_svg
 from loadflow.storage import write_text
 
 ASSETS = Path(__file__).parent / "assets"
-"""The script of the page, and uPlot with its licence, which draws the charts."""
+"""Styles and scripts of the pages, and uPlot with its licence, which draws the charts."""
 
 LARGEST_SVG = 200_000
 """Characters of a figure that is not yet dense; a denser one becomes a picture of points."""
@@ -66,6 +66,7 @@ FEW = 3
 """Names of columns that are left out, which stand below a table in full."""
 
 _STEM = 60  # characters of the name of a file
+_UPRIGHT = 12  # columns on upright paper
 _LONG = 24  # characters of a number with its unit
 
 
@@ -151,6 +152,11 @@ class Section:
         """Name for links within the page."""
         return self.title.lower().replace(" ", "-")
 
+    @property
+    def wide(self) -> bool:
+        """Whether its words and tables are printed across: one has more columns than fit."""
+        return any(len(table.heads) > _UPRIGHT for table in self.tables)
+
 
 def write_page(
     path: Path, title: str, facts: dict[str, str], sections: list[Section], mark: str = ""
@@ -194,7 +200,6 @@ def write_page(
         facts=facts,
         sections=sections,
         mark=mark,
-        asset=asset,
         few=FEW,
     )
 
@@ -247,4 +252,5 @@ def write_filled(path: Path, template: str, **values: Any) -> Path:
     environment = Environment(
         loader=PackageLoader("loadflow.report"), autoescape=select_autoescape(["html"])
     )
+    environment.globals["asset"] = asset
     return write_text(path, environment.get_template(template).render(**values))

@@ -7,6 +7,7 @@ files, never from memory, so a run that was killed and started again gives the s
 
 from __future__ import annotations
 
+import errno
 import logging
 import time
 from collections.abc import Callable, Iterator
@@ -159,10 +160,16 @@ def run_on(
                 return _run(scene, folder, workers, overwrite, report, say, profile)
     except OSError as error:
         place = error.filename or folder
-        raise LoadflowError(
-            f"{error.strerror or error}: {place}; what is finished stays, and the run goes on from "
-            "there when it is started again"
-        ) from error
+        way = (
+            "out (-o) names another folder for runs"
+            if error.errno in _LOCKED
+            else "what is finished stays, and the run goes on from there when it is started again"
+        )
+        raise LoadflowError(f"{error.strerror or error}: {place}; {way}") from error
+
+
+_LOCKED = {errno.EACCES, errno.EPERM, errno.EROFS}
+"""A folder that cannot be written, however often one tries."""
 
 
 class _LogFile(logging.FileHandler):

@@ -1,5 +1,7 @@
 """Candidates on the same loads: numbers, intervals, margins, page."""
 
+import asyncio
+import base64
 import csv
 import doctest
 import importlib
@@ -16,6 +18,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
+from browser import BROWSER, Browser, on_paper
 from synthetic import cube_file
 
 from loadflow.cli import main
@@ -76,10 +79,6 @@ from loadflow.studies.lifetime.finished_run import NO_SHARE
 from loadflow.studies.seeds.intervals import Groups, interval, joint_life
 from loadflow.studies.verdicts.verdicts import AT_NO_RATIO
 from loadflow.verdict import Verdict
-
-BROWSER = next(
-    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-)
 
 
 @pytest.fixture(scope="module")
@@ -1256,6 +1255,30 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
     )  # fmt: skip
     assert "<title>drawn 6 wide false frames true seen true</title>" in done.stdout
     assert "CONSOLE" not in done.stderr
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+def test_a4_holds_the_comparison_with_the_depth_of_each_candidate(found, tmp_path):
+    async def look():
+        async with Browser(tmp_path / "profile") as browser:
+            await browser.open(found.page.absolute().as_uri())
+            await browser.shows("Each candidate")
+            lying, standing = await on_paper(browser, 273.0), await on_paper(browser, 182.0)
+            paper = await browser.call("Page.printToPDF", preferCSSPageSize=True)
+            return lying, standing, base64.b64decode(paper["data"])
+
+    lying, standing, paper = asyncio.run(look())
+    assert lying["folded"] == lying["again"] > 3
+    assert lying["lost"] == lying["silent"] == 0
+    assert 0 < max(lying["other"]) <= 1032  # px, 273 mm
+    assert len(standing["upright"]) > 5
+    assert max(standing["upright"]) <= 688  # 182 mm
+    assert standing["smallest"] >= 6.5 / 0.75  # 6.5 pt
+    boxes = re.findall(rb"/MediaBox ?\[([^\]]*)\]", paper)
+    sides = [tuple(round(float(v)) for v in box.split()[2:]) for box in boxes]
+    assert {*sides} == {(595, 842), (842, 595)}
+    assert sides.count((595, 842)) >= len(found.comparison.candidates)  # about a page for each
 
 
 @pytest.mark.parametrize(

@@ -12,12 +12,14 @@ from html.parser import HTMLParser
 
 import numpy as np
 import pytest
+from browser import BROWSER
 from synthetic import cube_file
 
 from loadflow.cli import main
 from loadflow.cube import open_cube
 from loadflow.errors import InputError
 from loadflow.journal import JournalBearing
+from loadflow.report.design_figures import broken_in, front_figure, map_figure
 from loadflow.running.comparison import Means, shared_loads
 from loadflow.running.designing import _left_out, chosen_candidate, design
 from loadflow.scene.candidate import Candidate
@@ -480,9 +482,34 @@ def test_the_command_line_searches(cube, found, tmp_path, capsys):
         main(["design", str(scene), "--key", "geometry.rollers"])
 
 
-BROWSER = next(
-    filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None
-)
+def test_a_rolling_bearing_without_other_conditions_breaks_none_in_front_and_maps():
+    """Loads alone limit it: as JSON its nearest condition, which is endless, is null."""
+    numbers = {"load_factor": 1.6, "energy": 12.0, "condition": None}
+    designs = [
+        {"numbers": numbers, "why": "", "point": [1.0, 0.1]},
+        {"numbers": numbers | {"condition": 0.9}, "why": "", "point": [1.1, 0.1]},
+        {"numbers": dict.fromkeys(numbers), "why": "no answer", "point": [1.2, 0.1]},
+    ]
+    values = {
+        "load_factor": [[1.6, 1.6, None, 1.0], [1.6, 1.6, None, 1.0]],
+        "condition": [[None, 0.9, None, None], [None, 1.1, None, None]],
+        "energy": [[12.0, 12.0, None, 12.0], [11.0, 12.0, None, 11.0]],
+    }
+    data = {
+        "designs": designs, "front": {"index": [0]}, "given": numbers, "best": None, "margin": 1.1,
+        "axes": [{"key": key, "unit": "m", "values": None} for key in ("across", "up")],
+        "maps": [
+            {"keys": ("across", "up"), "values": values, "across": [0, 1, 2, 3], "up": [0, 1]}
+        ],
+    }  # fmt: skip
+    broken, kept, *_ = front_figure(data).axes[0].collections
+    at = [*map(tuple, kept.get_offsets())]
+    assert at == [(1.6, 12.0)]
+    assert (1.6, 12.0) in map(tuple, broken.get_offsets().filled(-1))
+    assert broken_in(values, 1.1).tolist() == [
+        [False, True, True, True], [False, False, True, True],
+    ]  # fmt: skip
+    assert map_figure(data, 0).axes[0].collections
 
 
 @pytest.mark.browser

@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from browser import BROWSER, Browser
+from browser import BROWSER, Browser, on_paper
 from synthetic import cube_file
 
 import loadflow as lf
@@ -401,9 +401,77 @@ def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
     assert up == sorted(up)
     assert down == sorted(up, reverse=True)
     assert said == "descending"
-    boxes = set(re.findall(rb"/MediaBox ?\[([^\]]*)\]", paper))
-    assert [round(float(v)) for v in next(iter(boxes)).split()] == [0, 0, 595, 842]  # A4
+    boxes = re.findall(rb"/MediaBox ?\[([^\]]*)\]", paper)
+    sides = {tuple(round(float(v)) for v in box.split()[2:]) for box in boxes}
+    assert sides == {(595, 842), (842, 595)}  # A4, and the widest table on one that lies
     assert errors == []
+
+
+FOLLOWED = """(() => { const one = document.activeElement, plot = one.plots && one.plots[0];
+  return plot && { there: '#' + one.id === location.hash, top: one.getBoundingClientRect().top,
+    span: plot.scales.x.max - plot.scales.x.min, at: plot.cursor.idx ?? null,
+    read: plot.root.querySelector('.u-value').textContent }; })()"""
+HIDDEN = """(() => { const label = document.activeElement, box = label.closest('.chart');
+  return box.plots.flatMap(plot => plot.series).filter(one => one.show === false).length; })()"""
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+def test_a_keyboard_alone_sorts_follows_zooms_reads_hides_and_unfolds(page, tmp_path):
+    async def look():
+        async with Browser(tmp_path / "profile") as browser:
+            await browser.open(page.as_uri())
+            await until_true(browser, "document.readyState === 'complete'")
+            passed = await browser.tab_to("table.sortable th")
+            await browser.press("Enter")
+            assert await browser.evaluate("document.activeElement.ariaSort") == "ascending"
+
+            passed += await browser.tab_to('td a[href^="#at-"]')
+            await browser.press("Enter")
+            await until_true(browser, f"({FOLLOWED} || {{}}).there")  # within what was folded
+            before = await browser.evaluate(FOLLOWED)
+            assert -1 < before["top"] < 1200
+            await browser.press("+")
+            await browser.press("ArrowRight", shift=True)
+            await browser.press("ArrowRight", shift=True)
+            after = await browser.evaluate(FOLLOWED)
+            assert after["span"] == pytest.approx(before["span"] / 2)
+            assert after["at"] > 0
+            assert float(after["read"]) > 0
+            await browser.press("ArrowLeft", shift=True)
+            assert (await browser.evaluate(FOLLOWED))["at"] < after["at"]
+
+            passed += await browser.tab_to(".u-legend th")
+            for hidden in (1, 0):
+                await browser.press("Enter")
+                assert await browser.evaluate(HIDDEN) == hidden
+            passed += await browser.tab_to("summary")
+            await browser.press("Enter")
+            assert await browser.evaluate("document.activeElement.parentNode.open")
+            return passed
+
+    passed = asyncio.run(look())
+    assert len(passed) > 20
+    unseen = [one for one in passed if one and not (one["seen"] and one["outlined"])]
+    assert unseen == []
+
+
+@pytest.mark.browser
+@pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
+def test_a4_holds_the_report_with_what_was_folded_and_nothing_beyond_its_edge(page, tmp_path):
+    async def look():
+        async with Browser(tmp_path / "profile") as browser:
+            await browser.open(page.as_uri())
+            await until_true(browser, "document.readyState === 'complete'")
+            return await on_paper(browser, 182.0)
+
+    told = asyncio.run(look())
+    assert told["folded"] == told["again"] > 3
+    assert told["lost"] == told["silent"] == 0
+    assert len(told["other"]) > 20
+    assert max(told["other"]) <= 688  # px, 182 mm
+    assert 0 < max(told["wide"]) <= 1032  # 273 mm
+    assert told["smallest"] >= 6.5 / 0.75  # 6.5 pt
 
 
 async def until_true(browser, code, seconds=30):

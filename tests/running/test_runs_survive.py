@@ -1,5 +1,6 @@
 """Runs that are killed, damaged or refused: what is finished stays, and nothing wrong is used."""
 
+import errno
 import json
 import logging
 import math
@@ -246,6 +247,20 @@ def test_a_run_cannot_have_a_name_that_leads_elsewhere(finished, tmp_path, name)
         with pytest.raises(InputError, match="name"):
             run(scene.model_copy(update={"name": name}), out=tmp_path)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_that_cannot_be_written_is_told_with_the_way_out(tmp_path, monkeypatch):
+    """Starting again, which helps on a full disk, would not help here."""
+
+    def refuse(path, *_, **__):
+        raise PermissionError(errno.EACCES, os.strerror(errno.EACCES), str(path))
+
+    scene = small_scene(tmp_path)
+    monkeypatch.setattr(Path, "mkdir", refuse)
+    with pytest.raises(LoadflowError) as told:
+        run(scene, out=tmp_path / "locked")
+    assert str(told.value).startswith(f"Permission denied: {tmp_path / 'locked'}")
+    assert str(told.value).endswith("; out (-o) names another folder for runs")
 
 
 def test_a_case_cannot_lead_out_of_the_run(tmp_path):

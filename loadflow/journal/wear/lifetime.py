@@ -174,7 +174,8 @@ def wear_bearing(
         grown = 0.0
         groups = [group for run in runs for group in run.groups(bearing.radius)]
         while life < 1.0 and grown < wear.renewal * rough.asperities.roughness:
-            pressed, missed = surface.pressed(groups, rough, depth)  # N/m over the whole life
+            # N/m over the whole life
+            pressed, missed, groups = surface.pressed(groups, rough, depth)
             left = max(left, missed)
             rate = float((wear.grown(depth, pressed, rough.coefficient) - depth).max())
             if rate == 0.0:

@@ -73,23 +73,32 @@ class Surface:
         contour = Contour(tuple(self.angle), (depth if z else depth[:, 0]).tolist(), z)
         return replace(self.bearing, relief=(*self.bearing.relief, contour))
 
-    def pressed(self, groups: list[Group], rough: Contact, depth: Array) -> tuple[Array, float]:
+    def pressed(
+        self, groups: list[Group], rough: Contact, depth: Array
+    ) -> tuple[Array, float, list[Group]]:
         """∫ p ds of all groups, N/m, at each point, and the worst share of a load that is missed.
+
+        And the groups where their shafts lie now: a bore that has worn a little further moves these
+        by little.
 
         Raises
         ------
         loadflow.errors.SolverError
             A shaft that its asperities do not hold.
         """
-        total, worst = np.zeros(self.shape), 0.0
+        total, worst, moved = np.zeros(self.shape), 0.0, list[Group]()
         for group in groups:
-            pressure, missed = self._carried(group, rough, depth)
+            pressure, missed, place = self._carried(group, rough, depth)
             total += group.distance * pressure
             worst = max(worst, missed)
-        return total, worst
+            moved.append(replace(group, place=place))
+        return total, worst, moved
 
-    def _carried(self, group: Group, rough: Contact, depth: Array) -> tuple[Array, float]:
-        """Pressure, Pa, at each point of a shaft whose asperities carry the load of a group."""
+    def _carried(self, group: Group, rough: Contact, depth: Array) -> tuple[Array, float, Array]:
+        """Pressure, Pa, at each point of a shaft whose asperities carry the load of a group.
+
+        And what of the load is missed, as a share, and where the shaft lies, (2,), m.
+        """
         way, tips = self._way, rough.asperities
         tilt_x, tilt_y, bend_x, bend_y = group.line
         z = self.z
@@ -105,18 +114,19 @@ class Surface:
         if np.hypot(*left) > _FAR * size:
             # the mean of neighbouring places may lie many roughnesses beside what carries
             place = _pushed(missing, place, group.force / size, tips.roughness)
+            left = missing(place)
         for _ in range(_NEWTON):
-            gap, left = bore - (place @ way)[:, None], missing(place)
+            gap = bore - (place @ way)[:, None]
             missed = float(np.hypot(*left)) / size
             slope = -self.area * tips.pressure_slope(gap).sum(axis=1)
             stiffness = (way * slope) @ way.T
             known = _ROUNDING * float(np.abs(bore).max()) * float(np.trace(stiffness)) / size
             if missed < max(_CLOSE, known):
-                return tips.pressure(gap), missed
+                return tips.pressure(gap), missed, place
             step = np.linalg.lstsq(stiffness, left, rcond=1e-12)[0]
             if not left @ step > 0:  # nothing touches: no stiffness
                 step = left / size * tips.roughness
-            place = _stepped(missing, place, step)
+            place, left = _stepped(missing, place, left, step)
         raise SolverError(
             f"wear: asperities do not carry {size:.4g} N after {_NEWTON} steps, {missed:.2g} left"
         )
@@ -138,16 +148,20 @@ def _pushed(missing: Callable[[Array], Array], place: Array, way: Array, roughne
     return place + high * way
 
 
-def _stepped(missing: Callable[[Array], Array], place: Array, step: Array) -> Array:
-    """The place along a step, longer or shorter, that leaves half of what is missing at most.
+def _stepped(
+    missing: Callable[[Array], Array], place: Array, left: Array, step: Array
+) -> tuple[Array, Array]:
+    """The place along a step, longer or shorter, that halves what is `left` along it, and its own.
 
     What asperities store is convex: what is missing along a line falls from its start on.
     """
-    start, low, high, length = float(missing(place) @ step), 0.0, np.inf, 1.0
+    start, low, high, length = float(left @ step), 0.0, np.inf, 1.0
     for _ in range(_TRIES):
-        left = float(missing(place + length * step) @ step)
-        if abs(left) <= 0.5 * start:
+        there = place + length * step
+        left = missing(there)
+        along = float(left @ step)
+        if abs(along) <= 0.5 * start:
             break
-        low, high = (length, high) if left > 0 else (low, length)
+        low, high = (length, high) if along > 0 else (low, length)
         length = 2.0 * length if high == np.inf else 0.5 * (low + high)
-    return place + length * step
+    return there, left

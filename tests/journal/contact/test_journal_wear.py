@@ -249,10 +249,25 @@ def test_a_tilted_shaft_finds_the_asperities_that_carry_it_from_far_beside_them(
         force, place = (np.array([np.cos(angle), np.sin(angle)]) for angle in way)
         line = draw.normal(scale=(2e-4, 2e-4, 1e-4, 1e-4))
         group = Group(size * force, 0.95 * main.clearance * place, 1.0, line)
-        pressed, missed = surface.pressed([group], Contact(tips, 0.1), np.zeros((720, 8)))
+        pressed, missed, _ = surface.pressed([group], Contact(tips, 0.1), np.zeros((720, 8)))
         across = np.stack([np.cos(surface.angle), np.sin(surface.angle)]) @ pressed.sum(axis=1)
         assert surface.area * across == pytest.approx(size * force, abs=2e-9 * size)
         assert missed < 1e-9
+
+
+def test_a_shaft_that_is_asked_for_again_lies_where_it_was_found():
+    """What makes a life of many small steps short: each begins where the one before ended."""
+    main = JournalBearing(diameter=2.0, width=1.4, relative_clearance=1.1e-3)
+    surface, depth = Surface(main, 720, 8), np.zeros((720, 8))
+    rough = Contact(AsperityContact(roughness=0.56e-6, contact_modulus=46.5e9, factor=1e-3), 0.1)
+    far = Group(
+        np.array([1e5, 2e4]), 0.95 * main.clearance * np.array([1.0, 0.2]), 1.0, np.zeros(4)
+    )
+    before, _, [found] = surface.pressed([far], rough, depth)
+    assert np.hypot(*(found.place - far.place)) > 1e-6
+    after, _, [again] = surface.pressed([found], rough, depth)
+    assert np.array_equal(again.place, found.place)
+    assert np.array_equal(after, before)
 
 
 @pytest.mark.parametrize(
