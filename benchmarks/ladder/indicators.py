@@ -76,8 +76,10 @@ class Pair:
     @property
     def within(self) -> bool:
         """Whether the factor is one that the effect allows for."""
-        if not self.counts or self.more:
-            return not self.counts
+        if not self.counts:
+            return True
+        if self.more:
+            return False
         return self.quantity in self.effect.either_way or self.factor <= self.effect.smaller
 
 

@@ -98,7 +98,6 @@ REASONS = ("touches", "carries no load", "starved", "carries no more", "half-spe
 REASONS += ("find no tilt", "a cone presses the shaft away", "the film gets hotter than")
 REASONS += ("no heat balance below 423.15 K; at 423", "no heat balance: at")
 REASONS += ("no heat balance below 423.15 K; the mean",)
-REASONS += ("leaves the arc",)
 REASONS += ("at once too little and too much", "a film holds no pad that faces the load")
 SEEDS = {"cylinder": 1, "shaped": 2, "supply": 3, "line": 4, "shell": 5, "orbit": 6}
 SEEDS |= {"contact": 7, "thrust": 8, "cone": 9, "pair": 10, "heat": 11, "touching": 12, "pads": 13}

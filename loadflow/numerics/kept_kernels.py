@@ -14,9 +14,12 @@ temporary files.
 from __future__ import annotations
 
 import ast
+import atexit
 import hashlib
 import os
 import re
+import shutil
+import stat
 import tempfile
 from collections.abc import Callable
 from contextlib import suppress
@@ -110,8 +113,10 @@ def _temporary_folder() -> Path:
     with suppress(FileExistsError):
         folder.mkdir(mode=0o700)
     state = folder.lstat()
-    if user != "" and (folder.is_symlink() or state.st_uid != user or state.st_mode & 0o077):
-        return Path(tempfile.mkdtemp(prefix="loadflow-kernels-"))
+    foreign = not stat.S_ISDIR(state.st_mode) or state.st_mode & 0o077
+    if user != "" and (foreign or state.st_uid != user):
+        folder = Path(tempfile.mkdtemp(prefix="loadflow-kernels-"))  # of this process alone
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return folder
 
 

@@ -119,10 +119,10 @@ def _without(told: Mapping[str, str], row: Row) -> Row:
 
 
 def _reasons(groups: Mapping[str, list[Row]]) -> dict[str, int]:
-    """Why numbers lack an interval, an error or a band: each reason once, with its number."""
+    """Why there is no number, interval, error or band: each reason once, with its number."""
     cells = (cell for rows in groups.values() for row in rows for cell in row.cells)
-    found = dict.fromkeys(why for cell in cells for _, why in cell.missing)
-    return {why: k for k, why in enumerate(found, 1)}
+    found = (why for cell in cells for why in (cell.hint, *dict(cell.missing).values()) if why)
+    return {why: k for k, why in enumerate(dict.fromkeys(found), 1)}
 
 
 def moments_of(one: Mapping[str, Any], data: Mapping[str, Any]) -> dict[Moment, list[str]]:

@@ -39,6 +39,12 @@ def test_init_writes_a_scene_that_is_valid(tmp_path, capsys):
     assert "quick_look" in told
 
 
+def test_a_place_that_takes_no_file_is_told_in_words_and_not_by_its_number(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    told = call(capsys, "init", "-o", str(tmp_path / "file" / "scene.toml"), code=1).err
+    assert told == f"failed: File exists: {tmp_path / 'file'}\n"
+
+
 def test_a_scene_on_load_files_is_told_with_the_option_that_names_them(tmp_path, capsys):
     path = tmp_path / "own.toml"
     assert "compare own.toml --loads" in call(

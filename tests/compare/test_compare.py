@@ -189,7 +189,11 @@ def test_every_number_has_its_interval_error_and_band_or_says_why_not(found):
     journal = by_name(found)["journal-cylindrical"].numbers
     assert 0 <= journal["oil_flow"].error == journal["pump"].error < 0.1
     page = found.page.read_text(encoding="utf-8")
-    asked = re.findall(r"<i>(?:seeds|models|tol\.)</i> – <a href=\"#(why-\d+)\" title=", page)
+    beside = re.findall(r"<i>(?:seeds|models|tol\.)</i> – <a href=\"#(why-\d+)\" title=", page)
+    instead = [f"why-{k}" for k in re.findall(r"<td class=\" soft\">n/a <sup>(\d+)</sup>", page)]
+    assert instead
+    assert len(instead) == len(re.findall(r">n/a", page))
+    asked = beside + instead
     told = re.findall(r"<li id=\"(why-\d+)\">[^<]+</li>", page)
     assert {*asked} == {*told}
     assert len(told) == len({*told}) < len(asked)  # each reason once

@@ -431,7 +431,7 @@ def test_a_keyboard_alone_sorts_follows_zooms_reads_hides_and_unfolds(page, tmp_
             await until_true(browser, f"({FOLLOWED} || {{}}).there")  # within what was folded
             before = await browser.evaluate(FOLLOWED)
             assert -1 < before["top"] < 1200
-            await browser.press("+")
+            await browser.press("+", shift=True)  # as many keyboards have it
             await browser.press("ArrowRight", shift=True)
             await browser.press("ArrowRight", shift=True)
             after = await browser.evaluate(FOLLOWED)

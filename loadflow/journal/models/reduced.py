@@ -51,7 +51,7 @@ from loadflow.journal.models.width_modes import half_width_nodes, lobatto
 from loadflow.journal.questions import AtPosition, AtRest, InMotion
 from loadflow.journal.rows import answered_rows, operating_columns, without_supply
 from loadflow.journal.solvers.estimate import NEAR, OFF_THE_BORE, SHARES
-from loadflow.journal.solvers.messages import leaves
+from loadflow.journal.solvers.messages import at_edge
 from loadflow.journal.solvers.motion.periodic import check_half_speed_whirl, check_period
 from loadflow.journal.solvers.motion.transient import OrbitStopped, orbit_dataset, stopped
 from loadflow.journal.solvers.warm.mean import with_temperatures
@@ -279,7 +279,7 @@ def _aligned_path(asked: InMotion) -> dict[str, Any]:
     if not rows[last, at.CONVERGED]:
         missed = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         place = rows[last, [at.X, at.Y]]
-        why = leaves(bearing.shape, place, force[last])
+        why = at_edge(bearing.shape, place)
         raise stopped(time[last], force[last], speed[last], float(np.hypot(*place)), missed, why)
     values = _results(bearing, film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}

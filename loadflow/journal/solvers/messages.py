@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from loadflow.journal.geometry import JournalGeometry
+from loadflow.journal.shapes import Arc
 from loadflow.journal.solvers.load_stepping import APART, has_touched
 from loadflow.journal.solvers.newton import Solution, solve_film
 from loadflow.numerics.convergence import unresolved
@@ -71,24 +72,26 @@ def touches(film: DiscreteFilm, solution: Solution) -> str:
     return touched(least, film.relative_clearance * film.radius, at)
 
 
+_AT_EDGE = 0.01  # gap at the end of an arc, clearances, where a path that stops has met it
+
+
 def touched(least: float, clearance: float, at: str = "") -> str:
     """Say that the shaft touches the bore, its narrowest gap `least` clearances, m, and where."""
     narrowest = f"narrowest gap {least * clearance:.6g} m{at}"
     return f"; the shaft touches the bore, {narrowest} (radial clearance {clearance:.6g} m)"
 
 
-def leaves(shape: Shape, position: Array, force: Array) -> str:
-    """That a shaft at a `position` (2,), clearances, has left a partial arc; else nothing.
+def at_edge(shape: Shape, position: Array) -> str:
+    """That a shaft at a `position` (2,), clearances, has met an end of a partial arc; else nothing.
 
-    It is farther out than the clearance where there is no shell, and its `force` (2,) points there.
+    A load beside the arc takes it there, and the film, which ends there, does not hold it.
     """
-    if len(shape.segments) != 1 or not math.hypot(*position) > 1.0:
+    if not isinstance(shape, Arc):
         return ""
-    start, end = shape.segments[0].start, shape.segments[0].end
-    ways = [math.atan2(y, x) for x, y in (position, force)]
-    if any((way - start) % (2 * math.pi) <= end - start for way in ways):
-        return ""
-    return "; the shaft leaves the arc by its open side, where the load points"
+    way = math.remainder(math.atan2(position[1], position[0]) - shape.angle, 2 * math.pi)
+    beyond = abs(way) - 0.5 * shape.span
+    gap = 1.0 - math.hypot(*position) * math.cos(beyond)
+    return "; the shaft touches an edge of the arc" if beyond > 0.0 and gap < _AT_EDGE else ""
 
 
 def why_unsolved(

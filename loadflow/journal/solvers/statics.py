@@ -139,7 +139,7 @@ class Statics(FilmOnCells):
         limits = control.tolerance, film.newton_steps(control.max_iterations)
         if not carries:
             return solve_film(film, film.start(), estimate, np.zeros(gap.size), *limits)
-        last = last or self._smooth(index, load, omega, control, in_steps, effort)
+        last = last or self._smooth(index, load, omega, control, effort)
         solution, estimate, pads = self._by_newton(force, estimate, last, limits, effort)
         if in_steps and not (solution.converged or effort.over):
             given = index, load, omega, control, effort
@@ -285,7 +285,7 @@ class Statics(FilmOnCells):
             yield floating.u, floating.position
 
     def _smooth(
-        self, index: int, load: Array, omega: float, control: Limits, in_steps: bool, effort: Effort
+        self, index: int, load: Array, omega: float, control: Limits, effort: Effort
     ) -> Solution | None:
         """Equilibrium without asperities, in a shell that spreads what presses it; None: not found.
 
@@ -297,10 +297,13 @@ class Statics(FilmOnCells):
         effort.kept += _ROUGH * (effort.left - kept)
         asperities, film.contact = film.contact, None
         try:
-            found = self.solve(index, load, omega, None, control, in_steps, effort)
+            found = self.solve(index, load, omega, None, control, effort=effort)
         finally:
             film.contact, effort.kept = asperities, kept
-        return found if found.converged else None
+        if found.converged:
+            return found
+        film.relax()  # of what was tried, and of a shell that was still too stiff
+        return None
 
     def _from_standing(
         self, index: int, load: Array, omega: float, control: Limits, effort: Effort

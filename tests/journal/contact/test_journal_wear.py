@@ -45,7 +45,7 @@ def film(law=None, edge=0.0, rough=ROUGH, **words):
 
 
 def start(count=1e4, samples=11, load=LOAD, **words):
-    time = np.linspace(0.0, 5.0, samples)  # asperities part below 2 rad/s
+    time = np.linspace(0.0, 5.0, samples)  # asperities part below 3.5 rad/s
     return Cycle(time, np.tile((load, 0.0), (samples, 1)), time, count, **words)
 
 

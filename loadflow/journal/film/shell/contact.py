@@ -120,6 +120,8 @@ class ShellContact(YieldingNodeLoad):
         """Growth of all cells, clearances, by what asperities press on some, Pa."""
         flat = pressed.ravel()
         cells = np.flatnonzero(flat)
+        if (self._row[cells] < 0).any():  # a trial may press cells that then never touch
+            return self._unit_growth * self._compliance.growth(pressed)
         return self._unit_growth * (flat[cells] @ self._influence(cells)).reshape(self._shape)
 
     def _linearise(self, slope: Array) -> None:

@@ -43,7 +43,7 @@ from loadflow.journal.models.ring import no_start
 from loadflow.journal.models.slow_heat import THIN, Warmth, cooled, slow_states
 from loadflow.journal.questions import InMotion
 from loadflow.journal.solvers.load_stepping import TOUCHING
-from loadflow.journal.solvers.messages import leaves, touched
+from loadflow.journal.solvers.messages import at_edge, touched
 from loadflow.journal.solvers.motion.transient import OrbitStopped, stopped
 from loadflow.journal.solvers.statics import Statics
 
@@ -263,7 +263,7 @@ class March:
         row = self.rows[last]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
         given = drive.time[last], drive.force[last], drive.speed[last], ratio
-        why = self._touch(last) or leaves(drive.bearing.shape, row[[at.X, at.Y]], drive.force[last])
+        why = self._touch(last) or at_edge(drive.bearing.shape, row[[at.X, at.Y]])
         return stopped(*given, _found_in(row), why, self.work)
 
     def _touch(self, sample: int) -> str:

@@ -56,8 +56,7 @@ def orbit_start(
         why = f"orbit cannot start: {statics.message(first, load)}"
         if statics.film.elastic and statics.film.clearance_left(first.position) <= APART:
             raise SolverError(why)  # which more cells do not change
-        cells = float(first.iterations * statics.film.mesh.order.size)
-        raise OrbitStopped(
-            why, work=max(cells, given - effort.left)
-        )  # of a shell a step takes more
+        # of a shell a step takes more than its cells
+        work = max(float(first.iterations * statics.film.mesh.order.size), given - effort.left)
+        raise OrbitStopped(why, work=work)
     return first
