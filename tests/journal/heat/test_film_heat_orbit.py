@@ -91,9 +91,9 @@ def test_loads_without_a_film_are_asked_for_one_first_and_last(monkeypatch):
     """Not at every field of temperature: where none carries them, that takes longest."""
     options, asked, solve = film(GasMixture(1e4)), [], Statics.solve
 
-    def counted(self, index, *arguments):
+    def counted(self, index, *arguments, **words):
         asked.append(index)
-        return solve(self, index, *arguments)
+        return solve(self, index, *arguments, **words)
 
     monkeypatch.setattr(Statics, "solve", counted)
     loads, speeds = np.tile(LOAD, (16, 1)), np.full(16, SPEED)
