@@ -1,7 +1,9 @@
 """A headless Chromium that a test can ask what a page shows: DevTools protocol over tornado."""
 
 import asyncio
+import base64
 import json
+import re
 import shutil
 import subprocess
 import time
@@ -102,6 +104,26 @@ class Browser:
         found = await self.call("Runtime.evaluate", expression=code, returnByValue=True)
         return found["result"].get("value")
 
+    async def becomes(self, code, seconds=30):
+        """Wait until some code is true."""
+        end = time.monotonic() + seconds
+        while not await self.evaluate(code):
+            assert time.monotonic() < end, code
+            await asyncio.sleep(0.2)
+
+    async def resize(self, width, height=1000):
+        """Make the page so many pixels wide."""
+        await self.call(
+            "Emulation.setDeviceMetricsOverride",
+            width=width, height=height, deviceScaleFactor=1, mobile=False,
+        )  # fmt: skip
+
+    async def printed(self):
+        """Width and height of each sheet of the page as PDF, points."""
+        paper = await self.call("Page.printToPDF", preferCSSPageSize=True)
+        boxes = re.findall(rb"/MediaBox ?\[([^\]]*)\]", base64.b64decode(paper["data"]))
+        return [tuple(round(float(side)) for side in box.split()[2:]) for box in boxes]
+
     async def press(self, key, *, shift=False):
         """Press and let go of a key where the focus is, as a hand does."""
         about = {"key": key, "windowsVirtualKeyCode": CODES.get(key, 0), "modifiers": 8 * shift}
@@ -139,6 +161,18 @@ async def until(holds, seconds):
         await asyncio.sleep(0.1)
 
 
+def looked_at(url, profile, look):
+    """What `look` tells of a page that is opened in a browser of its own."""
+
+    async def there():
+        async with Browser(profile) as browser:
+            await browser.open(url)
+            await browser.becomes("document.readyState === 'complete'")  # all charts are there
+            return await look(browser)
+
+    return asyncio.run(there())
+
+
 ON_PAPER = """(() => {
   const closed = () => [...document.querySelectorAll('details:not([open])')], before = closed();
   const edges = which => [...document.querySelectorAll('table, svg, img, canvas')].filter(which)
@@ -165,9 +199,6 @@ async def on_paper(browser, width):
     `wide`, `upright`, `other` are right edges, px, of what is printed on paper that lies, on paper
     that stands, and on that of the page.
     """
-    await browser.call(
-        "Emulation.setDeviceMetricsOverride",
-        width=round(width / 25.4 * 96), height=1000, deviceScaleFactor=1, mobile=False,
-    )  # fmt: skip
+    await browser.resize(round(width / 25.4 * 96))
     await browser.call("Emulation.setEmulatedMedia", media="print")
     return await browser.evaluate(ON_PAPER)

@@ -1,7 +1,5 @@
 """Candidates on the same loads: numbers, intervals, margins, page."""
 
-import asyncio
-import base64
 import csv
 import doctest
 import importlib
@@ -18,7 +16,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 import xarray as xr
-from browser import BROWSER, Browser, on_paper
+from browser import BROWSER, looked_at, on_paper
 from synthetic import cube_file
 
 from loadflow.cli import main
@@ -1264,25 +1262,23 @@ def test_a_browser_shows_the_page_within_its_width_without_a_console_error(found
 @pytest.mark.browser
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
 def test_a4_holds_the_comparison_with_the_depth_of_each_candidate(found, tmp_path):
-    async def look():
-        async with Browser(tmp_path / "profile") as browser:
-            await browser.open(found.page.absolute().as_uri())
-            await browser.shows("Each candidate")
-            lying, standing = await on_paper(browser, 273.0), await on_paper(browser, 182.0)
-            paper = await browser.call("Page.printToPDF", preferCSSPageSize=True)
-            return lying, standing, base64.b64decode(paper["data"])
+    async def look(browser):
+        return (
+            await on_paper(browser, 273.0),
+            await on_paper(browser, 182.0),
+            await browser.printed(),
+        )
 
-    lying, standing, paper = asyncio.run(look())
+    page = found.page.absolute().as_uri()
+    lying, standing, sheets = looked_at(page, tmp_path / "profile", look)
     assert lying["folded"] == lying["again"] > 3
     assert lying["lost"] == lying["silent"] == 0
     assert 0 < max(lying["other"]) <= 1032  # px, 273 mm
     assert len(standing["upright"]) > 5
     assert max(standing["upright"]) <= 688  # 182 mm
     assert standing["smallest"] >= 6.5 / 0.75  # 6.5 pt
-    boxes = re.findall(rb"/MediaBox ?\[([^\]]*)\]", paper)
-    sides = [tuple(round(float(v)) for v in box.split()[2:]) for box in boxes]
-    assert {*sides} == {(595, 842), (842, 595)}
-    assert sides.count((595, 842)) >= len(found.comparison.candidates)  # about a page for each
+    assert {*sheets} == {(595, 842), (842, 595)}
+    assert sheets.count((595, 842)) >= len(found.comparison.candidates)  # about a page for each
 
 
 @pytest.mark.parametrize(

@@ -454,7 +454,7 @@ def test_an_orbit_that_ends_where_a_tilted_shaft_meets_the_bore_says_so():
 @pytest.mark.parametrize("number", [61220, 70139])
 def test_an_orbit_whose_shaft_meets_an_edge_of_a_partial_arc_says_so(number):
     """The load of both turns away from the arc; on "grid" they end there, too."""
-    with pytest.raises(SolverError, match=r"orbit stops.*; the shaft touches an edge of the arc"):
+    with pytest.raises(SolverError, match=r"orbit stops.*; the shaft touches .* m at an edge of"):
         drawn("composed", number)[1]()
 
 
@@ -462,13 +462,14 @@ def test_a_shaft_meets_an_edge_of_an_arc_only_beside_it():
     def place(ratio, way):  # from the middle of the arc on
         return ratio * np.array([math.cos(0.5 + way), math.sin(0.5 + way)])
 
-    arc = Arc(angle=0.5, span=2.0)
-    assert messages.at_edge(arc, place(1 / math.cos(0.7), 1.7))
-    assert messages.at_edge(arc, place(1 / math.cos(0.7), -1.7))
+    arc = JournalBearing(0.2, 0.1, 1e-3, shape=Arc(angle=0.5, span=2.0))
+    met = "narrowest gap 5e-07 m at an edge of the arc (radial clearance 0.0001 m)"
+    for side in (1, -1):
+        assert messages.at_edge(arc, place(0.995 / math.cos(0.7), side * 1.7)).endswith(met)
     assert not messages.at_edge(arc, place(0.9 / math.cos(0.7), 1.7))
     assert not messages.at_edge(arc, place(2.0, 3.0))
     assert not messages.at_edge(arc, place(1.0, 0.9))
-    assert not messages.at_edge(Cylindrical(), place(2.0, 1.7))
+    assert not messages.at_edge(replace(arc, shape=Cylindrical()), place(2.0, 1.7))
 
 
 def test_a_warm_film_that_the_fast_rung_does_not_find_has_the_word_of_the_grid():

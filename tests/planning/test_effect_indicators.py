@@ -137,14 +137,10 @@ def test_an_effect_that_moves_more_than_is_allowed_for_is_told_from_one_that_mov
     more, less = replace(pair, measured=0.4), replace(pair, indicated=0.4, measured=0.002)
     assert (pair.within, more.within, less.within) == (True, False, False)
     assert (pair.more, more.more, less.more) == (False, True, False)
-    assert "1 of 3 answers are within" in (
-        told := indicators.outside_table(places(pair, more, less))
-    )
+    each = [replace(one, place=str(k)) for k, one in enumerate((pair, more, less))]
+    told = indicators.outside_table(each)
+    assert "1 of 3 answers are within" in told
     assert "may leave out what counts: 1; by less: 1." in told
-
-
-def places(*some):
-    return [replace(one, place=str(k)) for k, one in enumerate(some)]
 
 
 @pytest.fixture(scope="module")

@@ -147,10 +147,7 @@ async def _look(address, profile):
         await page.open(f"{address}?tab=2&case=dlc1.1_v12_s1")
         text = await page.shows("bearing", "picture")
         assert text.count("picture") >= 2  # the film over time, and the orbit
-        await page.call(
-            "Emulation.setDeviceMetricsOverride",
-            width=400, height=900, deviceScaleFactor=1, mobile=False,
-        )  # fmt: skip
+        await page.resize(400, 900)
         await asyncio.sleep(0.5)
         assert await page.evaluate("document.documentElement.scrollWidth") <= 400
         await page.open(f"{address}?tab=0")

@@ -5,7 +5,6 @@ import base64
 import json
 import re
 import shutil
-import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,7 +12,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from browser import BROWSER, Browser, on_paper
+from browser import BROWSER, looked_at, on_paper
 from synthetic import cube_file
 
 import loadflow as lf
@@ -359,39 +358,33 @@ DECADES = """[...document.querySelectorAll('.chart')].flatMap(box => box.plots)
 SORT = """(() => { const table = document.querySelector('#journal-bearing table.sortable');
   const head = table.querySelectorAll('thead th')[1];
   const column = () => [...table.tBodies[0].rows].map(row => Number(row.cells[1].textContent));
-  head.focus(); head.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}));
+  head.focus(); head.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter', bubbles: true}));
   const up = column(); head.click(); return [up, column(), head.getAttribute('aria-sort')]; })()"""
 
 
 @pytest.mark.browser
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
 def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
-    async def look():
-        async with Browser(tmp_path / "profile") as browser:
-            await browser.open(page.as_uri())
-            await browser.shows("Journal bearing", "Provenance")
-            await until_true(browser, "document.readyState === 'complete'")  # all charts are there
-            count = await browser.evaluate(COUNT)
-            for width in (400, 1600):
-                await browser.call(
-                    "Emulation.setDeviceMetricsOverride",
-                    width=width, height=1000, deviceScaleFactor=1, mobile=False,
-                )  # fmt: skip
-                await until_true(browser, f"{DRAWN} === {count}")
-                assert await browser.evaluate(WIDE) <= 0, width
-            decades = await browser.evaluate(DECADES)
-            whole = await browser.evaluate(f"{PRESS}('0')")
-            await asyncio.sleep(0.2)
-            await browser.evaluate(f"{PRESS}('+')")
-            await asyncio.sleep(0.2)
-            half = await browser.evaluate(f"{PRESS}('Shift')")
-            up, down, said = await browser.evaluate(SORT)
-            paper = await browser.call("Page.printToPDF", preferCSSPageSize=True)
-            errors = [text for text in browser.console if page.as_uri() not in text]
-            paper = base64.b64decode(paper["data"])
-            return count, decades, whole, half, up, down, said, paper, errors
+    async def look(browser):
+        await browser.shows("Journal bearing", "Provenance")
+        count = await browser.evaluate(COUNT)
+        for width in (400, 1600):
+            await browser.resize(width)
+            await browser.becomes(f"{DRAWN} === {count}")
+            assert await browser.evaluate(WIDE) <= 0, width
+        decades = await browser.evaluate(DECADES)
+        whole = await browser.evaluate(f"{PRESS}('0')")
+        await asyncio.sleep(0.2)
+        await browser.evaluate(f"{PRESS}('+')")
+        await asyncio.sleep(0.2)
+        half = await browser.evaluate(f"{PRESS}('Shift')")
+        up, down, said = await browser.evaluate(SORT)
+        sheets = await browser.printed()
+        errors = [text for text in browser.console if page.as_uri() not in text]
+        return count, decades, whole, half, up, down, said, sheets, errors
 
-    count, decades, whole, half, up, down, said, paper, errors = asyncio.run(look())
+    told = looked_at(page.as_uri(), tmp_path / "profile", look)
+    count, decades, whole, half, up, down, said, sheets, errors = told
     assert count >= 5
     assert decades
     for labels in decades:  # of a logarithmic scale: each once, and short
@@ -401,9 +394,7 @@ def test_a_browser_draws_every_chart_zooms_sorts_and_prints(page, tmp_path):
     assert up == sorted(up)
     assert down == sorted(up, reverse=True)
     assert said == "descending"
-    boxes = re.findall(rb"/MediaBox ?\[([^\]]*)\]", paper)
-    sides = {tuple(round(float(v)) for v in box.split()[2:]) for box in boxes}
-    assert sides == {(595, 842), (842, 595)}  # A4, and the widest table on one that lies
+    assert {*sheets} == {(595, 842), (842, 595)}  # A4, and the widest table on one that lies
     assert errors == []
 
 
@@ -418,39 +409,36 @@ HIDDEN = """(() => { const label = document.activeElement, box = label.closest('
 @pytest.mark.browser
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
 def test_a_keyboard_alone_sorts_follows_zooms_reads_hides_and_unfolds(page, tmp_path):
-    async def look():
-        async with Browser(tmp_path / "profile") as browser:
-            await browser.open(page.as_uri())
-            await until_true(browser, "document.readyState === 'complete'")
-            passed = await browser.tab_to("table.sortable th")
-            await browser.press("Enter")
-            assert await browser.evaluate("document.activeElement.ariaSort") == "ascending"
+    async def look(browser):
+        passed = await browser.tab_to("table.sortable th")
+        await browser.press("Enter")
+        assert await browser.evaluate("document.activeElement.ariaSort") == "ascending"
 
-            passed += await browser.tab_to('td a[href^="#at-"]')
-            await browser.press("Enter")
-            await until_true(browser, f"({FOLLOWED} || {{}}).there")  # within what was folded
-            before = await browser.evaluate(FOLLOWED)
-            assert -1 < before["top"] < 1200
-            await browser.press("+", shift=True)  # as many keyboards have it
-            await browser.press("ArrowRight", shift=True)
-            await browser.press("ArrowRight", shift=True)
-            after = await browser.evaluate(FOLLOWED)
-            assert after["span"] == pytest.approx(before["span"] / 2)
-            assert after["at"] > 0
-            assert float(after["read"]) > 0
-            await browser.press("ArrowLeft", shift=True)
-            assert (await browser.evaluate(FOLLOWED))["at"] < after["at"]
+        passed += await browser.tab_to('td a[href^="#at-"]')
+        await browser.press("Enter")
+        await browser.becomes(f"({FOLLOWED} || {{}}).there")  # within what was folded
+        before = await browser.evaluate(FOLLOWED)
+        assert -1 < before["top"] < 1200
+        await browser.press("+", shift=True)  # as many keyboards have it
+        await browser.press("ArrowRight", shift=True)
+        await browser.press("ArrowRight", shift=True)
+        after = await browser.evaluate(FOLLOWED)
+        assert after["span"] == pytest.approx(before["span"] / 2)
+        assert after["at"] > 0
+        assert float(after["read"]) > 0
+        await browser.press("ArrowLeft", shift=True)
+        assert (await browser.evaluate(FOLLOWED))["at"] < after["at"]
 
-            passed += await browser.tab_to(".u-legend th")
-            for hidden in (1, 0):
-                await browser.press("Enter")
-                assert await browser.evaluate(HIDDEN) == hidden
-            passed += await browser.tab_to("summary")
+        passed += await browser.tab_to(".u-legend th")
+        for hidden in (1, 0):
             await browser.press("Enter")
-            assert await browser.evaluate("document.activeElement.parentNode.open")
-            return passed
+            assert await browser.evaluate(HIDDEN) == hidden
+        passed += await browser.tab_to("summary")
+        await browser.press("Enter")
+        assert await browser.evaluate("document.activeElement.parentNode.open")
+        return passed
 
-    passed = asyncio.run(look())
+    passed = looked_at(page.as_uri(), tmp_path / "profile", look)
     assert len(passed) > 20
     unseen = [one for one in passed if one and not (one["seen"] and one["outlined"])]
     assert unseen == []
@@ -459,26 +447,16 @@ def test_a_keyboard_alone_sorts_follows_zooms_reads_hides_and_unfolds(page, tmp_
 @pytest.mark.browser
 @pytest.mark.skipif(BROWSER is None, reason="no Chromium on this machine")
 def test_a4_holds_the_report_with_what_was_folded_and_nothing_beyond_its_edge(page, tmp_path):
-    async def look():
-        async with Browser(tmp_path / "profile") as browser:
-            await browser.open(page.as_uri())
-            await until_true(browser, "document.readyState === 'complete'")
-            return await on_paper(browser, 182.0)
+    def look(browser):
+        return on_paper(browser, 182.0)
 
-    told = asyncio.run(look())
+    told = looked_at(page.as_uri(), tmp_path / "profile", look)
     assert told["folded"] == told["again"] > 3
     assert told["lost"] == told["silent"] == 0
     assert len(told["other"]) > 20
     assert max(told["other"]) <= 688  # px, 182 mm
     assert 0 < max(told["wide"]) <= 1032  # 273 mm
     assert told["smallest"] >= 6.5 / 0.75  # 6.5 pt
-
-
-async def until_true(browser, code, seconds=30):
-    end = time.monotonic() + seconds
-    while not await browser.evaluate(code):
-        assert time.monotonic() < end, code
-        await asyncio.sleep(0.2)
 
 
 def test_films_of_verdicts_stand_in_micrometres_and_ratios_without_a_unit():

@@ -279,7 +279,7 @@ def _aligned_path(asked: InMotion) -> dict[str, Any]:
     if not rows[last, at.CONVERGED]:
         missed = tuple(rows[last, [at.RESIDUAL, at.ROUNDING, at.ITERATIONS]])
         place = rows[last, [at.X, at.Y]]
-        why = at_edge(bearing.shape, place)
+        why = at_edge(bearing, place)
         raise stopped(time[last], force[last], speed[last], float(np.hypot(*place)), missed, why)
     values = _results(bearing, film, rows, speed * states[:, THIN])
     values = cooled(warmth, states, values) | {"x": rows[:, at.X], "y": rows[:, at.Y]}

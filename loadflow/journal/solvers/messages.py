@@ -18,7 +18,6 @@ if TYPE_CHECKING:
     from loadflow.journal.film.film import DiscreteFilm
     from loadflow.journal.film.gap.gap import BoreGap
     from loadflow.journal.film.gap.shaped import ShapedGap
-    from loadflow.journal.shapes import Shape
 
 Array = NDArray[np.float64]
 
@@ -72,26 +71,28 @@ def touches(film: DiscreteFilm, solution: Solution) -> str:
     return touched(least, film.relative_clearance * film.radius, at)
 
 
-_AT_EDGE = 0.01  # gap at the end of an arc, clearances, where a path that stops has met it
-
-
 def touched(least: float, clearance: float, at: str = "") -> str:
     """Say that the shaft touches the bore, its narrowest gap `least` clearances, m, and where."""
     narrowest = f"narrowest gap {least * clearance:.6g} m{at}"
     return f"; the shaft touches the bore, {narrowest} (radial clearance {clearance:.6g} m)"
 
 
-def at_edge(shape: Shape, position: Array) -> str:
+_AT_EDGE = 0.01  # gap at the end of an arc, clearances, where a path that stops has met it
+
+
+def at_edge(bearing: JournalGeometry, position: Array) -> str:
     """That a shaft at a `position` (2,), clearances, has met an end of a partial arc; else nothing.
 
     A load beside the arc takes it there, and the film, which ends there, does not hold it.
     """
-    if not isinstance(shape, Arc):
+    arc = bearing.shape
+    if not isinstance(arc, Arc):
         return ""
-    way = math.remainder(math.atan2(position[1], position[0]) - shape.angle, 2 * math.pi)
-    beyond = abs(way) - 0.5 * shape.span
+    way = math.remainder(math.atan2(position[1], position[0]) - arc.angle, 2 * math.pi)
+    beyond = abs(way) - 0.5 * arc.span
     gap = 1.0 - math.hypot(*position) * math.cos(beyond)
-    return "; the shaft touches an edge of the arc" if beyond > 0.0 and gap < _AT_EDGE else ""
+    met = beyond > 0.0 and gap < _AT_EDGE
+    return touched(gap, bearing.clearance, " at an edge of the arc") if met else ""
 
 
 def why_unsolved(

@@ -84,17 +84,15 @@
     box.data = data;
     drawn.set(box, box.plots);
     for (const plot of box.plots) plot.over.addEventListener("dblclick", () => show(box, x[0], x[x.length - 1]));
-    for (const label of box.querySelectorAll(".u-series:not(:first-child):not(:nth-child(2):last-child) th")) pressable(label);
+    for (const label of box.querySelectorAll(".u-series:not(:first-child):not(:nth-child(2):last-child) th")) {
+      label.tabIndex = 0;
+      label.setAttribute("role", "button");
+      label.classList.add("pressable"); // hides and shows its line
+    }
     box.addEventListener("keydown", event => {
       if (event.ctrlKey || event.altKey || event.metaKey) return; // those of the browser
       (event.shiftKey && event.key.startsWith("Arrow") ? point : zoom)(box, x, event); // Shift may be needed to type a +
     });
-  }
-
-  function pressable(label) { // a line is hidden and shown by Enter, as by a click
-    label.tabIndex = 0;
-    label.setAttribute("role", "button");
-    label.addEventListener("keydown", event => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); label.click(); } });
   }
 
   function point(box, x, event) { // Shift and arrows move the cross by a hundredth of what is shown, or to the next sample

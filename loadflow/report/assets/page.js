@@ -1,6 +1,13 @@
 "use strict";
 (() => {
-  // --- tables: a click or Enter on a head sorts by its column ---
+  // --- what a click does, Enter and Space do ---
+  addEventListener("keydown", event => {
+    if ((event.key !== "Enter" && event.key !== " ") || !event.target.matches?.(".pressable")) return;
+    event.preventDefault();
+    event.target.click();
+  });
+
+  // --- tables: their heads sort by their columns ---
   const number = text => { const found = text.replace(/\u2212/g, "-").match(/^\s*[<>≤≥±]?\s*(-?[\d.]+(?:e[-+]?\d+)?)/i); return found ? Number(found[1]) : NaN; };
   function sort(head) {
     const table = head.closest("table"), body = table.tBodies[0], column = head.cellIndex;
@@ -22,8 +29,8 @@
   for (const head of document.querySelectorAll("table.sortable thead th")) {
     head.tabIndex = 0;
     head.title = "sort";
+    head.classList.add("pressable");
     head.addEventListener("click", () => sort(head));
-    head.addEventListener("keydown", event => { if (event.key === "Enter" || event.key === " ") { event.preventDefault(); sort(head); } });
   }
 
   // --- what is linked to is opened ---

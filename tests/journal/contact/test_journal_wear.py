@@ -112,9 +112,10 @@ def test_wear_deeper_than_the_film_leaves_a_film(law, edge):
     """
     deep = ShaftImprint(largest_depth=60e-6, clearance=BEARING.clearance)
     worn = deep.depth(2 * np.pi / 720 * np.arange(720))[:, None]
-    surface, wear = film(law, edge, grid=(90, 6)), Wear(Archard(3e-16), renewal=4.0)
+    surface, wear = film(law, edge, grid=(90, 6)), Wear(Archard(3e-16), renewal=1.0)
     found = wear_bearing(BEARING, [start(1e4)], surface, wear, worn=worn)
     assert found.depth.max() > 60e-6
+    assert found.history.sizes["renewal"] > 2  # films of the bore as it goes on to wear
     speeds = np.array([0.0, 0.1, 10.0])
     after = found.bearing.equilibrium((LOAD, 0.0), speeds, found.film)
     new = BEARING.equilibrium((LOAD, 0.0), speeds, surface)

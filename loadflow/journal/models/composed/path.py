@@ -263,7 +263,7 @@ class March:
         row = self.rows[last]
         ratio = float(np.hypot(row[at.X], row[at.Y]))
         given = drive.time[last], drive.force[last], drive.speed[last], ratio
-        why = self._touch(last) or at_edge(drive.bearing.shape, row[[at.X, at.Y]])
+        why = self._touch(last) or at_edge(drive.bearing, row[[at.X, at.Y]])
         return stopped(*given, _found_in(row), why, self.work)
 
     def _touch(self, sample: int) -> str:
